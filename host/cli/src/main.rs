@@ -1,1 +1,23 @@
-fn main() {}
+//! The `zygote` command: one file per verb, each with its arguments and its `run`.
+
+mod failure;
+mod output;
+mod verb;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Shapes into stacks of panels, and stacks into shapes.
+#[derive(Parser)]
+#[command(version, about, propagate_version = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    verb: verb::Verb,
+}
+
+fn main() -> ExitCode {
+    match Cli::parse().verb.run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

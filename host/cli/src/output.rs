@@ -1,0 +1,24 @@
+//! Output files appear whole or not at all, and what a verb prints goes to standard output.
+
+use crate::failure::{Failure, OrFail};
+use anyhow::Context;
+use std::path::Path;
+use std::{fs, process};
+
+/// Writes a file beside its place and then moves it there, so that no reader ever sees half of it.
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let name = path.file_name().with_context(|| format!("{}: names no file", path.display())).or_bad_input()?;
+    let temporary = path.with_file_name(format!(".{}.{}.tmp", name.to_string_lossy(), process::id()));
+    let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        // Whatever is left of the temporary file is of no use to anyone; the first error is the one to tell.
+        fs::remove_file(&temporary).ok();
+    }
+    written.with_context(|| format!("{}: cannot be written", path.display())).or_failed()
+}
+
+/// Prints a line for the user.
+#[expect(clippy::print_stdout, reason = "the one place where results reach the user")]
+pub(crate) fn say(line: impl std::fmt::Display) {
+    println!("{line}");
+}
