@@ -145,6 +145,8 @@ struct Nodes {
     film_c: f64,
     foil_c: f64,
     phase: Transformation,
+    /// Heat that the foil takes up per kelvin, its latent heat included, as it was in the latest step.
+    apparent_j_per_k: f64,
 }
 
 /// A shape-memory hinge at work.
@@ -166,13 +168,19 @@ pub struct SmaHinge {
 
 impl SmaHinge {
     pub(super) fn new(config: SmaConfig, ambient_c: f64) -> Self {
+        let nodes = Nodes {
+            film_c: ambient_c,
+            foil_c: ambient_c,
+            phase: Transformation::MARTENSITE,
+            apparent_j_per_k: config.foil_j_per_k(),
+        };
         Self {
             config,
             foil_j_per_k: config.foil_j_per_k(),
             latent_j: config.latent_j(),
             film_loss_w_per_k: config.film_loss_w_per_k(),
             foil_loss_w_per_k: config.foil_loss_w_per_k(),
-            nodes: Nodes { film_c: ambient_c, foil_c: ambient_c, phase: Transformation::MARTENSITE },
+            nodes,
             travel: 0.0,
             jammed: false,
             heater_open: false,
@@ -221,8 +229,13 @@ impl SmaHinge {
     /// without making or losing any, whatever the step.
     pub(super) fn advance(&mut self, dt_s: f64, power_w: f64, ambient_c: f64) {
         let start = self.nodes;
-        let midway = self.moved(start, start, dt_s / 2.0, power_w, ambient_c);
-        self.nodes = self.moved(start, midway, dt_s, power_w, ambient_c);
+        // The temperatures half-way only say how much heat flows, so a tangent will do for them.
+        let (film_w, foil_w) = self.flows_w(start.film_c, start.foil_c, power_w, ambient_c);
+        let midway_film_c = start.film_c + film_w * dt_s / (2.0 * self.config.film_j_per_k);
+        let midway_foil_c = start.foil_c + foil_w * dt_s / (2.0 * start.apparent_j_per_k);
+        let (film_w, foil_w) = self.flows_w(midway_film_c, midway_foil_c, power_w, ambient_c);
+        self.nodes = self.foil_after(foil_w * dt_s);
+        self.nodes.film_c = start.film_c + film_w * dt_s / self.config.film_j_per_k;
         self.thermistor.advance(dt_s, start.foil_c, self.nodes.foil_c, ambient_c);
         if !self.jammed {
             // The foil is a torsion spring whose rest angle grows with the austenite.
@@ -232,49 +245,47 @@ impl SmaHinge {
         }
     }
 
-    /// The nodes `dt_s` after `start`, with the flows of heat as they are at `flows`.
-    fn moved(&self, start: Nodes, flows: Nodes, dt_s: f64, power_w: f64, ambient_c: f64) -> Nodes {
-        let across_w = self.config.coupling_w_per_k * (flows.film_c - flows.foil_c);
-        let film_w = power_w - across_w - self.film_loss_w_per_k * (flows.film_c - ambient_c);
-        let foil_w = across_w - self.foil_loss_w_per_k * (flows.foil_c - ambient_c);
-        let (foil_c, phase) = self.foil_after(start, foil_w * dt_s);
-        Nodes { film_c: start.film_c + film_w * dt_s / self.config.film_j_per_k, foil_c, phase }
+    /// Heat that flows into the film and into the foil.
+    fn flows_w(&self, film_c: f64, foil_c: f64, power_w: f64, ambient_c: f64) -> (f64, f64) {
+        let across_w = self.config.coupling_w_per_k * (film_c - foil_c);
+        let film_w = power_w - across_w - self.film_loss_w_per_k * (film_c - ambient_c);
+        let foil_w = across_w - self.foil_loss_w_per_k * (foil_c - ambient_c);
+        (film_w, foil_w)
     }
 
-    /// Temperature and phase of the foil after it took up `heat_j`: the root of
+    /// The nodes after the foil took up `heat_j`: its temperature is the root of
     /// C (T' - T) + L (martensite turned) = heat, which grows steadily with T'. Solving for the enthalpy, rather than
     /// stepping with an effective heat capacity, loses no latent heat where the branch bends within a step.
-    fn foil_after(&self, start: Nodes, heat_j: f64) -> (f64, Transformation) {
-        const TOLERANCE_K: f64 = 1e-10;
-        // Bisection alone brings any step of the plant below the tolerance within this many halvings.
+    fn foil_after(&self, heat_j: f64) -> Nodes {
+        const TOLERANCE_K: f64 = 1e-9;
+        // Newton needs two or three; halving a step of some kelvins gets below the tolerance within this many.
         const MOST_ROUNDS: u32 = 60;
+        let start = self.nodes;
         let alloy = &self.config.alloy;
         // Were nothing to transform, it would get this far; transforming, it stops short of it.
         let furthest_c = start.foil_c + heat_j / self.foil_j_per_k;
-        let mut next_c = furthest_c;
-        let mut next = start.phase.moved(alloy, start.foil_c, next_c);
-        if next.martensite().to_bits() == start.phase.martensite().to_bits() {
-            return (next_c, next);
-        }
         let (mut low_c, mut high_c) = (start.foil_c.min(furthest_c), start.foil_c.max(furthest_c));
+        let mut next = Nodes { foil_c: start.foil_c + heat_j / start.apparent_j_per_k, ..start };
         for _ in 0..MOST_ROUNDS {
-            let turned = start.phase.martensite() - next.martensite();
-            let excess_j = self.foil_j_per_k * (next_c - start.foil_c) + self.latent_j * turned - heat_j;
+            next.phase = start.phase.moved(alloy, start.foil_c, next.foil_c);
+            let turned = start.phase.martensite() - next.phase.martensite();
+            // A phase that holds still has a slope only once it moves.
+            let slope_per_k = if turned == 0.0 { 0.0 } else { next.phase.slope_per_k(alloy) };
+            next.apparent_j_per_k = self.foil_j_per_k + self.latent_j * slope_per_k;
+            let excess_j = self.foil_j_per_k * (next.foil_c - start.foil_c) + self.latent_j * turned - heat_j;
             if excess_j.abs() <= self.foil_j_per_k * TOLERANCE_K {
                 break;
             }
             if excess_j > 0.0 {
-                high_c = next_c;
+                high_c = next.foil_c;
             } else {
-                low_c = next_c;
+                low_c = next.foil_c;
             }
-            let slope_j_per_k = self.foil_j_per_k + self.latent_j * next.slope_per_k(alloy, next_c);
-            let newton_c = next_c - excess_j / slope_j_per_k;
-            next_c =
-                if low_c < newton_c && newton_c < high_c { newton_c } else { f64::midpoint(low_c, high_c) };
-            next = start.phase.moved(alloy, start.foil_c, next_c);
+            let newton_c = next.foil_c - excess_j / next.apparent_j_per_k;
+            let within = low_c <= newton_c && newton_c <= high_c;
+            next.foil_c = if within { newton_c } else { f64::midpoint(low_c, high_c) };
         }
-        (next_c, next)
+        next
     }
 
     pub(super) fn jam(&mut self) {

@@ -90,11 +90,6 @@ fn cosine_step(x: f64) -> f64 {
     }
 }
 
-/// Slope of [`cosine_step`].
-fn cosine_slope(x: f64) -> f64 {
-    if x <= 0.0 || x >= 1.0 { 0.0 } else { PI / 2.0 * libm::sin(PI * x) }
-}
-
 /// The transformation that went on last; `scale` is what the phase being consumed amounts to where the branch
 /// begins, so that the branch passes through the point of reversal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,17 +159,17 @@ impl Transformation {
         Self { martensite: self.martensite.max(1.0 - scale * after), branch: Branch::Cooling { scale } }
     }
 
-    /// Fall of the martensite fraction per kelvin at `t_c` on this branch, were it moving along it.
-    pub(super) fn slope_per_k(&self, alloy: &Alloy, t_c: f64) -> f64 {
-        match self.branch {
-            Branch::Heating { scale } => {
-                let width = alloy.af_c - alloy.as_c;
-                scale * cosine_slope((alloy.af_c - t_c) / width) / width
-            }
-            Branch::Cooling { scale } => {
-                let width = alloy.ms_c - alloy.mf_c;
-                scale * cosine_slope((t_c - alloy.mf_c) / width) / width
-            }
+    /// Fall of the martensite fraction per kelvin, were it moving on along its branch.
+    pub(super) fn slope_per_k(&self, alloy: &Alloy) -> f64 {
+        let (left, scale, width_k) = match self.branch {
+            Branch::Heating { scale } => (self.martensite, scale, alloy.af_c - alloy.as_c),
+            Branch::Cooling { scale } => (self.austenite(), scale, alloy.ms_c - alloy.mf_c),
+        };
+        if scale <= 0.0 {
+            return 0.0;
         }
+        // With y = (1 - cos(pi x)) / 2 is dy/dx = pi sqrt(y (1 - y)): no sine needed.
+        let y = (left / scale).min(1.0);
+        scale * PI * (y * (1.0 - y)).sqrt() / width_k
     }
 }

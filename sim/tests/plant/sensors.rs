@@ -47,8 +47,7 @@ fn the_noise_has_the_spread_that_was_asked_for() {
     sma.thermistor.noise_counts = 4.0;
     let mut rig = Rig::hinge(sma);
     let exact = sma.thermistor.counts_at(22.0);
-    let errors: Vec<f64> =
-        (0..20_000).map(|_| f64::from(rig.plant.sense().thermistors[0]) - exact).collect();
+    let errors: Vec<f64> = (0..20_000).map(|_| f64::from(rig.plant.sense().thermistors[0]) - exact).collect();
     let count = 20_000.0;
     let mean = errors.iter().sum::<f64>() / count;
     let deviation = (errors.iter().map(|error| (error - mean).powi(2)).sum::<f64>() / count).sqrt();
@@ -60,8 +59,7 @@ fn the_noise_has_the_spread_that_was_asked_for() {
 #[test]
 fn supply_and_current_are_read_in_thousandths() {
     let supply = stiff_supply();
-    let mut rig =
-        Rig::new(&Config { supply, heaters: vec![SmaConfig::opening(90.0)], ..Config::default() });
+    let mut rig = Rig::new(&Config { supply, heaters: vec![SmaConfig::opening(90.0)], ..Config::default() });
     rig.heaters[0] = Duty::new(500);
     rig.step(TICK);
     let readings = rig.plant.sense();

@@ -25,8 +25,7 @@ impl ClosedForm {
         let (film, foil) = (sma.film_j_per_k, sma.foil_j_per_k());
         let (across, film_loss, foil_loss) =
             (sma.coupling_w_per_k, sma.film_loss_w_per_k(), sma.foil_loss_w_per_k());
-        let steady_film_k =
-            power_w / (film_loss + across * foil_loss / (across + foil_loss));
+        let steady_film_k = power_w / (film_loss + across * foil_loss / (across + foil_loss));
         let steady_foil_k = steady_film_k * across / (across + foil_loss);
         // d/dt (film, foil) = -[[a, -b], [-c, d]] (film, foil)
         let (a, b) = ((across + film_loss) / film, across / film);
@@ -37,10 +36,7 @@ impl ClosedForm {
         let (u, v) = (a - fast, a - slow);
         let weight_fast = (-steady_foil_k * b + steady_film_k * v) / (b * (u - v));
         let weight_slow = -steady_film_k / b - weight_fast;
-        let modes = [
-            (fast, weight_fast * b, weight_fast * u),
-            (slow, weight_slow * b, weight_slow * v),
-        ];
+        let modes = [(fast, weight_fast * b, weight_fast * u), (slow, weight_slow * b, weight_slow * v)];
         Self { steady_film_k, steady_foil_k, modes, lag_s: sma.thermistor.lag_s }
     }
 
@@ -87,7 +83,10 @@ fn below_as_film_foil_and_bead_follow_the_closed_form() {
 fn a_hinge_cools_with_its_time_constant() {
     let sma = SmaConfig::opening(180.0);
     let time_constant_s = ClosedForm::new(&sma, 0.3).slow_time_constant_s();
-    assert!((4.0..13.0).contains(&time_constant_s), "{time_constant_s} s is not that of a small foil in still air");
+    assert!(
+        (4.0..13.0).contains(&time_constant_s),
+        "{time_constant_s} s is not that of a small foil in still air"
+    );
     let mut rig = Rig::hinge(sma);
     rig.heaters[0] = Duty::new(300);
     rig.run(60.0);
@@ -132,7 +131,12 @@ fn crossing_from_as_to_af_takes_the_latent_heat() {
         (took_s, took_s - lost_j - film_j)
     };
     let (with_s, into_foil_j) = crossing_s(sma);
-    assert_near(into_foil_j, sma.foil_j_per_k() * width_k + sma.latent_j(), 0.02, "heat into the foil at 1 W");
+    assert_near(
+        into_foil_j,
+        sma.foil_j_per_k() * width_k + sma.latent_j(),
+        0.02,
+        "heat into the foil at 1 W",
+    );
     let mut without = sma;
     without.alloy.latent_j_per_kg = 0.0;
     let (without_s, _) = crossing_s(without);

@@ -27,7 +27,12 @@ fn heating_turns_all_martensite_between_as_and_af() {
     assert_near(through(&ALLOY, &[ALLOY.as_c]).austenite(), 0.0, 0.0, "austenite at As");
     assert_near(through(&ALLOY, &[73.0]).austenite(), 0.5, 1e-12, "austenite half-way");
     // Liang and Rogers: (cos(pi (T - As) / (Af - As)) + 1) / 2 of the martensite is left.
-    assert_near(through(&ALLOY, &[70.0]).martensite(), f64::midpoint((0.2 * PI).cos(), 1.0), 1e-12, "at 70 °C");
+    assert_near(
+        through(&ALLOY, &[70.0]).martensite(),
+        f64::midpoint((0.2 * PI).cos(), 1.0),
+        1e-12,
+        "at 70 °C",
+    );
     assert!(through(&ALLOY, &[77.5]).martensite() > 0.0, "some is left just below Af");
     assert_near(through(&ALLOY, &[ALLOY.af_c]).martensite(), 0.0, 0.0, "martensite at Af");
 }
@@ -50,7 +55,12 @@ fn between_ms_and_as_the_phase_depends_on_the_side_it_came_from() {
 fn interrupted_heating_is_taken_up_where_it_stopped() {
     let half = through(&ALLOY, &[73.0]);
     assert_near(through(&ALLOY, &[73.0, 56.0]).austenite(), half.austenite(), 0.0, "cooled to above Ms");
-    assert_near(through(&ALLOY, &[73.0, 56.0, 72.0]).austenite(), half.austenite(), 0.0, "not yet as warm again");
+    assert_near(
+        through(&ALLOY, &[73.0, 56.0, 72.0]).austenite(),
+        half.austenite(),
+        0.0,
+        "not yet as warm again",
+    );
     let onward = through(&ALLOY, &[73.0, 56.0, 75.0]);
     assert_near(onward.austenite(), through(&ALLOY, &[75.0]).austenite(), 1e-12, "beyond where it stopped");
 }
@@ -61,7 +71,12 @@ fn a_minor_loop_starts_from_the_phase_that_it_reversed_at() {
     // As, and the three quarters of martensite turn between As and Af.
     assert_near(through(&ALLOY, &[73.0, 47.0]).austenite(), 0.25, 1e-12, "turned back");
     assert_near(through(&ALLOY, &[73.0, 47.0, ALLOY.as_c]).austenite(), 0.25, 1e-12, "at As again");
-    assert_near(through(&ALLOY, &[73.0, 47.0, 73.0]).martensite(), 0.375, 1e-12, "half of the three quarters");
+    assert_near(
+        through(&ALLOY, &[73.0, 47.0, 73.0]).martensite(),
+        0.375,
+        1e-12,
+        "half of the three quarters",
+    );
 }
 
 #[test]
@@ -108,7 +123,9 @@ proptest! {
     }
 
     #[test]
-    fn no_small_change_of_temperature_makes_the_phase_jump(path in prop::collection::vec(30.0..90.0, 1..30)) {
+    fn no_small_change_of_temperature_makes_the_phase_jump(
+        path in prop::collection::vec(30.0..90.0f64, 1..30),
+    ) {
         const STEP_K: f64 = 0.01;
         // Steepest point of a cosine over the 10 K between As and Af, or Ms and Mf.
         const STEEPEST_PER_K: f64 = PI / 2.0 / 10.0;
@@ -128,7 +145,7 @@ proptest! {
     #[test]
     fn a_way_in_pieces_ends_where_the_whole_way_does(
         alloy in any_alloy(),
-        path in prop::collection::vec((0.0..110.0, 0.0..1.0), 1..30),
+        path in prop::collection::vec((0.0..110.0f64, 0.0..1.0f64), 1..30),
     ) {
         let (mut whole, mut pieces) = (Transformation::MARTENSITE, Transformation::MARTENSITE);
         let mut at_c = 0.0;
