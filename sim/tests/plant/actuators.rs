@@ -142,7 +142,8 @@ fn a_drive_with_too_few_outputs_is_refused_and_time_stands_still() {
 
 #[test]
 fn numbers_that_no_hinge_can_have_are_refused_by_name() {
-    let broken = |change: fn(&mut Config)| {
+    type Change = fn(&mut Config);
+    let broken = |change: Change| {
         let mut config = Config {
             heaters: vec![SmaConfig::opening(90.0), SmaConfig::opening(90.0)],
             servos: vec![ServoConfig::default()],
@@ -152,7 +153,7 @@ fn numbers_that_no_hinge_can_have_are_refused_by_name() {
         change(&mut config);
         Plant::new(&config).expect_err("a number out of range").to_string()
     };
-    let cases: [(&str, fn(&mut Config)); 8] = [
+    let cases: [(&str, Change); 8] = [
         ("room: temperature (°C) is NaN", |config| config.ambient_c = f64::NAN),
         ("supply: source resistance (Ohm) is -1", |config| config.supply.source_ohm = -1.0),
         ("heater 1: heater (Ohm) is 0", |config| config.heaters[1].heater_ohm = 0.0),
