@@ -6,7 +6,8 @@
 //!             air                air
 //! ```
 //!
-//! Two thermal nodes, because the film is hotter than the foil, by some 10 K at 1 W with the defaults: one node would open the hinge too early and hide what the glue and the panels next to the film bear.
+//! Two thermal nodes, because the film is hotter than the foil, by some 10 K at 1 W with the
+//! defaults: one node would open the hinge too early and hide what the glue and the panels next to the film bear.
 //! Within the foil one node is enough: 0.125 mm of nitinol evens out across its thickness in a millisecond.
 
 use super::error::{Hinge, Place, PlantError, finite, not_negative, positive, within};
@@ -58,7 +59,7 @@ impl SmaConfig {
     /// * Film 12 mJ/K: 50 mm^2 of 0.15 mm polyimide laminate at 1420 kg/m^3 and 1090 J/(kg K) (polyimide film
     ///   data sheet). Coupling 75 mW/K: 50 um of polyimide at 0.12 W/(m K) and 50 um of glue at 0.2 W/(m K).
     /// * Air 45 W/(m^2 K): small plates in still air, radiation included, range 20 to 70. Panels 4 mW/K: two
-    ///   glued ends on 1 mm of plastic at 0.2 W/(m K), 10 mm^2 each. Together a time constant of 5.5 s.
+    ///   glued ends on 1 mm of plastic at 0.2 W/(m K), 10 mm^2 each. Together a time constant of 5.4 s.
     pub fn opening(opening_deg: f64) -> Self {
         Self {
             start_deg: 0.0,
