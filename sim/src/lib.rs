@@ -1,3 +1,8 @@
-//! The firmware core on a simulated plant, in virtual time or served on a PTY.
+//! The firmware core on a simulated plant, in virtual time or served on a pseudo-terminal.
 
+mod board;
 pub mod plant;
+mod pty;
+
+pub use board::{Board, CEILING, SimCore};
+pub use pty::{Pty, ServeError};
