@@ -258,14 +258,15 @@ impl SmaHinge {
     /// stepping with an effective heat capacity, loses no latent heat where the branch bends within a step.
     fn foil_after(&self, heat_j: f64) -> Nodes {
         const TOLERANCE_K: f64 = 1e-9;
-        // Newton needs two or three; halving a step of some kelvins gets below the tolerance within this many.
-        const MOST_ROUNDS: u32 = 60;
+        // Newton needs two or three; halving a step of some kelvins in every other round, this many.
+        const MOST_ROUNDS: u32 = 100;
         let start = self.nodes;
         let alloy = &self.config.alloy;
         // Were nothing to transform, it would get this far; transforming, it stops short of it.
         let furthest_c = start.foil_c + heat_j / self.foil_j_per_k;
         let (mut low_c, mut high_c) = (start.foil_c.min(furthest_c), start.foil_c.max(furthest_c));
         let mut next = Nodes { foil_c: start.foil_c + heat_j / start.apparent_j_per_k, ..start };
+        let mut previous_j = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {
             next.phase = start.phase.moved(alloy, start.foil_c, next.foil_c);
             let turned = start.phase.martensite() - next.phase.martensite();
@@ -282,8 +283,10 @@ impl SmaHinge {
                 low_c = next.foil_c;
             }
             let newton_c = next.foil_c - excess_j / next.apparent_j_per_k;
-            let within = low_c <= newton_c && newton_c <= high_c;
-            next.foil_c = if within { newton_c } else { f64::midpoint(low_c, high_c) };
+            // From either side of a bend Newton can jump back and forth for ever: it must gain to be followed.
+            let gains = excess_j.abs() <= previous_j / 2.0 && low_c <= newton_c && newton_c <= high_c;
+            next.foil_c = if gains { newton_c } else { f64::midpoint(low_c, high_c) };
+            previous_j = excess_j.abs();
         }
         next
     }

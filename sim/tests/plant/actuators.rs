@@ -5,10 +5,10 @@ use core::time::Duration;
 use proptest::prelude::*;
 use zygote_core::{Duty, PulseMicros};
 use zygote_sim::plant::{
-    Config, Drive, Plant, PlantError, ServoActivity, ServoConfig, SmaConfig, SpringConfig,
+    Config, Drive, Plant, PlantError, ServoActivity, ServoConfig, SmaConfig, SpringConfig, SupplyConfig,
 };
 
-use crate::rig::{Rig, TICK, assert_near};
+use crate::rig::{Rig, TICK, assert_near, stiff_supply};
 
 fn servo_deg(rig: &Rig) -> f64 {
     rig.plant.servo_hinges()[0].angle_deg()
@@ -31,6 +31,16 @@ fn a_servo_slews_to_its_pulse_and_draws_more_while_it_moves() {
     assert_near(servo_deg(&rig), 135.0, 1e-9, "arrived");
     assert_near(rig.plant.supply_a(), servo.idle_ma / 1000.0, 1e-12, "holding current");
     assert_eq!(rig.plant.servo_hinges()[0].activity(), ServoActivity::Holding);
+}
+
+#[test]
+fn a_servo_is_as_slow_as_its_supply_is_low() {
+    let supply = SupplyConfig { open_circuit_v: 4.0, ..stiff_supply() };
+    let servo = ServoConfig::default();
+    let mut rig = Rig::new(&Config { supply, servos: vec![servo], ..Config::default() });
+    rig.servos[0] = Some(PulseMicros(1500));
+    rig.run(0.2);
+    assert_near(servo_deg(&rig), 0.2 * servo.slew_deg_per_s * 4.0 / servo.rated_v, 1e-9, "at 4 V");
 }
 
 #[test]

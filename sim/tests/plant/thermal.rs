@@ -188,7 +188,7 @@ fn one_step_of_20_ms_is_as_good_as_twenty_of_1_ms() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
     fn heat_in_is_heat_stored_turned_and_lost(
@@ -196,9 +196,13 @@ proptest! {
         latent_j_per_kg in 0.0..40_000.0,
         convection_w_per_m2_k in 20.0..70.0,
         start_below in 0.0..15.0,
+        heating_width_k in 0.05..15.0,
+        cooling_width_k in 0.05..10.0,
     ) {
         let mut sma = SmaConfig { convection_w_per_m2_k, ..SmaConfig::opening(180.0) };
         sma.alloy.latent_j_per_kg = latent_j_per_kg;
+        sma.alloy.af_c = sma.alloy.as_c + heating_width_k;
+        sma.alloy.mf_c = sma.alloy.ms_c - cooling_width_k;
         let ambient_c = 37.0 - start_below;
         let supply = stiff_supply();
         let mut rig = Rig::new(&Config { ambient_c, supply, heaters: vec![sma], ..Config::default() });

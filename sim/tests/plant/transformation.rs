@@ -80,6 +80,30 @@ fn a_minor_loop_starts_from_the_phase_that_it_reversed_at() {
 }
 
 #[test]
+fn a_reversal_where_both_transformations_overlap_does_not_jump() {
+    // Ms and Mf at 75 and 65 °C, As and Af at 68 and 78 °C.
+    let narrow = Alloy { mf_c: 65.0, ms_c: 75.0, ..ALLOY };
+    let mut path = vec![90.0, 70.0];
+    let cooled = through(&narrow, &path);
+    path.push(70.001);
+    assert_near(
+        through(&narrow, &path).martensite(),
+        cooled.martensite(),
+        1e-3,
+        "turned to heating at 70 °C",
+    );
+    path = vec![72.0];
+    let heated = through(&narrow, &path);
+    path.push(71.999);
+    assert_near(
+        through(&narrow, &path).martensite(),
+        heated.martensite(),
+        1e-3,
+        "turned to cooling at 72 °C",
+    );
+}
+
+#[test]
 fn a_ripple_on_the_temperature_does_not_eat_the_martensite() {
     let mut path = Vec::new();
     for _ in 0..10_000 {
