@@ -1,7 +1,9 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
+mod check;
 mod failure;
 mod output;
+mod plan;
 mod verb;
 
 use clap::Parser;

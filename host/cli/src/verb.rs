@@ -1,15 +1,24 @@
 //! The table of verbs.
 
 use crate::failure::Failure;
+use crate::{check, plan};
 use clap::Subcommand;
 
 /// A verb and its arguments.
 #[derive(Subcommand)]
-pub(crate) enum Verb {}
+pub(crate) enum Verb {
+    /// Plan how panels stack into piles and unfold into a shape
+    Plan(plan::Arguments),
+    /// Check that a plan breaks no rule
+    Check(check::Arguments),
+}
 
 impl Verb {
     /// Does what the user asked for.
     pub(crate) fn run(self) -> Result<(), Failure> {
-        match self {}
+        match self {
+            Self::Plan(arguments) => plan::run(&arguments),
+            Self::Check(arguments) => check::run(&arguments),
+        }
     }
 }
