@@ -6,7 +6,7 @@ use std::{fs, path::Path};
 
 /// Builds the book, and checks that it holds every page under `docs/`.
 pub(crate) fn run() -> Result<()> {
-    let mdbook = tools::from_crates_io("mdbook", "0.5", &["--no-default-features"])?;
+    let mdbook = tools::from_crates_io("mdbook", "^0.5", &["--no-default-features"])?;
     let docs = tools::root().join("docs");
     let summary =
         fs::read_to_string(docs.join("src/SUMMARY.md")).context("cannot read docs/src/SUMMARY.md")?;

@@ -5,7 +5,7 @@ use anyhow::Result;
 
 /// Unit and integration tests.
 pub(crate) fn unit() -> Result<()> {
-    let nextest = tools::from_crates_io("cargo-nextest", "0.9", &[])?;
+    let nextest = tools::from_crates_io("cargo-nextest", "^0.9", &[])?;
     tools::run(tools::command(nextest).args(["nextest", "run", "--workspace"]))
 }
 

@@ -2,6 +2,9 @@
 
 use std::{env, error::Error, fs, path::PathBuf, process::Command};
 
+/// What the firmware is made of.
+const SOURCES: &[&str] = &[".", "../../core", "../../../protocol"];
+
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
     fs::copy("memory.x", out.join("memory.x"))?;
@@ -14,17 +17,22 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("cargo:rerun-if-changed={path}");
         }
     }
+    for folder in SOURCES {
+        println!("cargo:rerun-if-changed={folder}");
+    }
     Ok(())
 }
 
-/// The commit, with a `+` where tracked files differ from it.
+/// The commit, with a `+` where the sources differ from it.
 fn commit() -> Option<String> {
     let hash = git(&["rev-parse", "--short=10", "HEAD"])?;
-    let dirty = git(&["status", "--porcelain", "--untracked-files=no"]).is_none_or(|changes| !changes.is_empty());
+    let dirty =
+        git(&[&["status", "--porcelain", "--"], SOURCES].concat()).is_none_or(|changes| !changes.is_empty());
     Some(if dirty { format!("{hash}+") } else { hash })
 }
 
 fn git(arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
+    let output =
+        Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
     Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
 }

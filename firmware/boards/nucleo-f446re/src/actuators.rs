@@ -2,18 +2,22 @@
 
 use crate::pins::{HEATERS, SERVOS, SPRINGS};
 use embassy_stm32::{
-    gpio::Output,
+    gpio::{Output, OutputType, Pull, Speed},
     peripherals::{TIM1, TIM3, TIM4, TIM8},
     time::Hertz,
     timer::{
         GeneralInstance4Channel,
-        simple_pwm::{SimplePwm, SimplePwmChannel, SimplePwmChannels},
+        simple_pwm::{PwmPinConfig, SimplePwm, SimplePwmChannel, SimplePwmChannels},
     },
 };
 use zygote_core::{Duty, Outputs};
 
 /// Far above the thermal time constants, low enough for slow MOSFET gates. A new duty waits for the next period.
 pub(crate) const HEATER_PWM: Hertz = Hertz(1_000);
+
+/// Pulled down for the moments in which the timer doesn't drive the pin yet.
+pub(crate) const HEATER_PIN: PwmPinConfig =
+    PwmPinConfig { output_type: OutputType::PushPull, speed: Speed::Low, pull: Pull::Down };
 
 /// The outputs of this board.
 pub(crate) type BoardOutputs = Outputs<HEATERS, SERVOS, SPRINGS>;

@@ -13,14 +13,14 @@ mod sensors;
 mod shell;
 mod tasks;
 
-use actuators::{Actuators, BoardOutputs, FourHeaters, HEATER_PWM};
+use actuators::{Actuators, BoardOutputs, FourHeaters, HEATER_PIN, HEATER_PWM};
 use defmt_rtt as _;
 use embassy_executor::{Executor, Spawner};
 use embassy_stm32::{
-    Peripherals,
+    Peri, Peripherals,
     adc::Adc,
     bind_interrupts,
-    gpio::{Input, Level, Output, OutputType, Pull, Speed},
+    gpio::{Input, Level, Output, Pin, Pull, Speed},
     peripherals::USART2,
     timer::{
         low_level::CountingMode::EdgeAlignedUp,
@@ -62,15 +62,14 @@ async fn start(spawner: Spawner, p: Peripherals) {
     let mut watchdog = IndependentWatchdog::new(p.IWDG, WATCHDOG_US);
     watchdog.unleash();
 
-    let low = |pin| Output::new(pin, Level::Low, Speed::Low);
     macro_rules! four_heaters {
         ($timer:ident: $ch1:ident, $ch2:ident, $ch3:ident, $ch4:ident) => {
             FourHeaters::new(SimplePwm::new(
                 p.$timer,
-                Some(PwmPin::new(p.$ch1, OutputType::PushPull)),
-                Some(PwmPin::new(p.$ch2, OutputType::PushPull)),
-                Some(PwmPin::new(p.$ch3, OutputType::PushPull)),
-                Some(PwmPin::new(p.$ch4, OutputType::PushPull)),
+                Some(PwmPin::new_with_config(p.$ch1, HEATER_PIN)),
+                Some(PwmPin::new_with_config(p.$ch2, HEATER_PIN)),
+                Some(PwmPin::new_with_config(p.$ch3, HEATER_PIN)),
+                Some(PwmPin::new_with_config(p.$ch4, HEATER_PIN)),
                 HEATER_PWM,
                 EdgeAlignedUp,
             ))
@@ -81,8 +80,8 @@ async fn start(spawner: Spawner, p: Peripherals) {
         heaters_4: four_heaters!(TIM3: PA6, PA7, PB0, PB1),
         heaters_8: four_heaters!(TIM4: PB6, PB7, PB8, PB9),
         heaters_12: four_heaters!(TIM8: PC6, PC7, PC8, PC9),
-        springs: [low(p.PB12.into()), low(p.PB13.into()), low(p.PB14.into()), low(p.PB15.into())],
-        main_switch: low(p.PC10.into()),
+        springs: [low(p.PB12), low(p.PB13), low(p.PB14), low(p.PB15)],
+        main_switch: low(p.PC10),
         applied: BoardOutputs::OFF,
     };
     let mut sensors = Sensors {
@@ -90,7 +89,7 @@ async fn start(spawner: Spawner, p: Peripherals) {
         thermistor: p.PA0,
         supply: p.PA1,
         current: p.PA4,
-        select: [low(p.PC0.into()), low(p.PC1.into()), low(p.PC2.into()), low(p.PC3.into())],
+        select: [low(p.PC0), low(p.PC1), low(p.PC2), low(p.PC3)],
         stop: Input::new(p.PC13, Pull::None),
         channel: 0,
         thermistors: [0; pins::HEATERS],
@@ -109,4 +108,9 @@ async fn start(spawner: Spawner, p: Peripherals) {
     spawner.spawn(defmt::unwrap!(tasks::control(shell, sensors, watchdog)));
     spawner.spawn(defmt::unwrap!(tasks::receive(shell, receiver)));
     spawner.spawn(defmt::unwrap!(tasks::transmit(shell, transmitter)));
+}
+
+/// An output that is low from the start.
+fn low(pin: Peri<'static, impl Pin>) -> Output<'static> {
+    Output::new(pin, Level::Low, Speed::Low)
 }

@@ -49,7 +49,6 @@ fn panic(info: &PanicInfo) -> ! {
 }
 
 /// A hard fault, and every fault that became one: outputs off, reset into S1.
-#[expect(unsafe_code, reason = "the exception table asks for it")]
 #[cortex_m_rt::exception]
 unsafe fn HardFault(_frame: &cortex_m_rt::ExceptionFrame) -> ! {
     safe_state::all_off();
@@ -57,7 +56,6 @@ unsafe fn HardFault(_frame: &cortex_m_rt::ExceptionFrame) -> ! {
 }
 
 /// An interrupt that nobody has bound: the same end.
-#[expect(unsafe_code, reason = "the exception table asks for it")]
 #[cortex_m_rt::exception]
 unsafe fn DefaultHandler(_interrupt: i16) {
     safe_state::all_off();
