@@ -91,13 +91,11 @@ async fn start(spawner: Spawner, p: Peripherals) {
         current: p.PA4,
         select: [low(p.PC0), low(p.PC1), low(p.PC2), low(p.PC3)],
         stop: Input::new(p.PC13, Pull::None),
-        channel: 0,
         thermistors: [0; pins::HEATERS],
     };
-    sensors.fill().await;
 
-    let identity = identity::identity(reset::boot_id(sensors.noise()), reset::cause());
-    let core = BoardCore::new(identity, identity::CEILING, shell::now());
+    let config = identity::config(reset::boot_id(sensors.noise()), reset::cause());
+    let core = BoardCore::new(config, shell::now());
     let shell = SHELL.init(Shell::new(core, actuators));
 
     let mut config = usart::Config::default();

@@ -49,6 +49,7 @@ fn panic(info: &PanicInfo) -> ! {
 }
 
 /// A hard fault, and every fault that became one: outputs off, reset into S1.
+#[allow(unsafe_code, reason = "the exception table asks for it")]
 #[cortex_m_rt::exception]
 unsafe fn HardFault(_frame: &cortex_m_rt::ExceptionFrame) -> ! {
     safe_state::all_off();
@@ -56,6 +57,7 @@ unsafe fn HardFault(_frame: &cortex_m_rt::ExceptionFrame) -> ! {
 }
 
 /// An interrupt that nobody has bound: the same end.
+#[allow(unsafe_code, reason = "the exception table asks for it")]
 #[cortex_m_rt::exception]
 unsafe fn DefaultHandler(_interrupt: i16) {
     safe_state::all_off();

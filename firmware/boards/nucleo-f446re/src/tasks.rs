@@ -8,11 +8,12 @@ use embassy_stm32::{
 };
 use embassy_time::{Duration, Ticker};
 use embedded_io_async::{Read, Write};
+use zygote_protocol::MAX_ENCODED;
 
-/// Period of the control tick.
-const TICK: Duration = Duration::from_millis(1);
+/// Period of the control tick: the core asks for 5 ms at most, and reading everything takes half of one.
+const TICK: Duration = Duration::from_millis(2);
 
-/// Sensors to core, at 1 kHz. Only this task feeds the watchdog: an executor that is stuck resets the chip.
+/// Sensors to core. Only this task feeds the watchdog: an executor that is stuck resets the chip.
 #[embassy_executor::task]
 pub(crate) async fn control(
     shell: &'static Shell,
@@ -22,7 +23,8 @@ pub(crate) async fn control(
     let mut ticker = Ticker::every(TICK);
     loop {
         ticker.next().await;
-        shell.tick(&sensors.read());
+        let inputs = sensors.read().await;
+        shell.tick(&inputs);
         watchdog.pet();
     }
 }
@@ -40,10 +42,10 @@ pub(crate) async fn receive(shell: &'static Shell, mut line: BufferedUartRx<'sta
     }
 }
 
-/// Core to host, a piece at a time, so that an urgent frame waits for little.
+/// Core to host, a frame at a time, so that an urgent frame waits for little.
 #[embassy_executor::task]
 pub(crate) async fn transmit(shell: &'static Shell, mut line: BufferedUartTx<'static>) {
-    let mut bytes = [0; 512];
+    let mut bytes = [0; MAX_ENCODED];
     loop {
         let count = shell.transmit(&mut bytes);
         if count == 0 {
