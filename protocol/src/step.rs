@@ -64,8 +64,10 @@ pub struct Turn {
     pub from_us: u16,
     /// Pulse at the end, microseconds.
     pub to_us: u16,
-    /// Time for the motion; then the hinge counts as opened.
+    /// Time for the motion.
     pub duration: Millis,
+    /// Time at the end for the servo to arrive; then the hinge counts as opened.
+    pub settle: Millis,
     /// Current while moving.
     pub current: Milliamps,
     /// Current while holding, until the run ends.

@@ -58,21 +58,24 @@ fn limits() -> Limits {
 
 #[test]
 fn the_schema_hash_stays() {
-    assert_eq!(format!("{:08x}", schema::hash()), "?");
+    assert_eq!(format!("{:08x}", schema::hash()), "52fa9efb");
 }
 
 #[test]
 fn a_hello_stays() {
-    golden(&Hello { min: 1, current: 1, schema: 0x1234_5678 }, "?");
+    golden(&Hello { min: 1, current: 1, schema: 0x1234_5678 }, "0101f8acd19101");
 }
 
 #[test]
 fn commands_stay() {
     let request = |command| Request { id: 513, command };
     let rig = || "bench-1".try_into().unwrap();
-    golden(&request(Command::Status), "?");
-    golden(&request(Command::Progress { first: 64 }), "?");
-    golden(&request(Command::Upload { run: 7, rig: rig(), steps: 13, crc: 0xdead_beef }), "?");
+    golden(&request(Command::Status), "810400");
+    golden(&request(Command::Progress { first: 64 }), "81040140");
+    golden(
+        &request(Command::Upload { run: 7, rig: rig(), steps: 13, crc: 0xdead_beef }),
+        "810402070762656e63682d310deffdb6f50d",
+    );
     let steps = [
         heat(),
         Step {
@@ -83,6 +86,7 @@ fn commands_stay() {
                 from_us: 500,
                 to_us: 1_500,
                 duration: Millis(900),
+                settle: Millis(150),
                 current: Milliamps(400),
                 hold_current: Milliamps(50),
             }),
@@ -98,13 +102,19 @@ fn commands_stay() {
             }),
         },
     ];
-    golden(&request(Command::Steps { first: 4, steps: Vec::from_slice(&steps).unwrap() }), "?");
-    golden(&request(Command::Commit), "?");
-    golden(&request(Command::Arm { rig: rig(), limits: limits(), lifetime: Millis(60_000) }), "?");
-    golden(&request(Command::Start { run: 7 }), "?");
-    golden(&request(Command::Disarm), "?");
-    golden(&request(Command::Clear), "?");
-    golden(&Urgent::Stop, "?");
+    golden(
+        &request(Command::Steps { first: 4, steps: Vec::from_slice(&steps).unwrap() }),
+        "8104030403ac020200020003b89401e807a09c01c0bb01a846f403e807b817c80101000102f403dc0b8407960190033202000200c801f403e807",
+    );
+    golden(&request(Command::Commit), "810404");
+    golden(
+        &request(Command::Arm { rig: rig(), limits: limits(), lifetime: Millis(60_000) }),
+        "8104050762656e63682d31c0bb01b0ea01f403d00fe807e0d403",
+    );
+    golden(&request(Command::Start { run: 7 }), "81040607");
+    golden(&request(Command::Disarm), "810407");
+    golden(&request(Command::Clear), "810408");
+    golden(&Urgent::Stop, "00");
 }
 
 #[test]
@@ -118,7 +128,7 @@ fn reports_stay() {
         value: 12_050,
         limit: -1,
     };
-    golden(&response(Ok(Reply::Done)), "?");
+    golden(&response(Ok(Reply::Done)), "0081040000");
     let status = Status {
         at: Micros(1_000_000),
         state: State::Safe,
@@ -128,19 +138,19 @@ fn reports_stay() {
         heaters_on: 0,
         main_switch: false,
     };
-    golden(&response(Ok(Reply::Status(status))), "?");
+    golden(&response(Ok(Reply::Status(status))), "0081040001c0843d0501070105c096b10201030102a4bc0101030000");
     let steps = Vec::from_slice(&[StepState::Waiting, StepState::Done, StepState::Interrupted]).unwrap();
-    golden(&response(Ok(Reply::Progress { first: 0, steps })), "?");
+    golden(&response(Ok(Reply::Progress { first: 0, steps })), "00810400020003000304");
     golden(
         &response(Err(Refusal { code: RefusalCode::LimitAboveCeiling, at: 3, expected: 2_000, got: 3_000 })),
-        "?",
+        "008104011003a01ff02e",
     );
     let event = |kind| Report::Event(Event { at: Micros(300), kind });
-    golden(&event(EventKind::State(State::Running)), "?");
-    golden(&event(EventKind::StepStarted { step: 1 }), "?");
-    golden(&event(EventKind::StepOpened { step: 1 }), "?");
-    golden(&event(EventKind::StepDone { step: 1, peak: Some(CentiCelsius(9_700)) }), "?");
-    golden(&fault, "?");
+    golden(&event(EventKind::State(State::Running)), "01ac020003");
+    golden(&event(EventKind::StepStarted { step: 1 }), "01ac020101");
+    golden(&event(EventKind::StepOpened { step: 1 }), "01ac020201");
+    golden(&event(EventKind::StepDone { step: 1, peak: Some(CentiCelsius(9_700)) }), "01ac02030101c89701");
+    golden(&fault, "05c096b10201030102a4bc0101");
 }
 
 #[test]
@@ -161,7 +171,7 @@ fn telemetry_stays() {
         opened: 9,
         motions,
     };
-    golden(&telemetry, "?");
+    golden(&telemetry, "80f8cce2840203d626ec040905000009e807010180960190030202e05d0303b0090404");
 }
 
 #[test]
@@ -169,7 +179,7 @@ fn a_frame_stays() {
     let header = Header { kind: FrameKind::Data, session: 0x0102_0304, seq: 5, ack: 0 };
     let mut buffer = [0; MAX_ENCODED];
     let length = encode(header, &[0, 1, 0], &mut buffer).unwrap();
-    assert_eq!(hex(&buffer[..length]), "?");
+    assert_eq!(hex(&buffer[..length]), "0702040302010501020105199224b900");
     let mut decoder = Decoder::new();
     assert_eq!(decoder.next(&mut &buffer[..length]), Some(Ok(header)));
     assert_eq!(decoder.payload(), [0, 1, 0]);

@@ -36,8 +36,8 @@ impl ServoMover {
 
     pub(crate) fn advance(&mut self, now: Micros) {
         let (elapsed, whole) = (now.since(self.since), self.spec.duration.to_micros());
-        self.arrived = elapsed >= whole;
-        self.pulse = PulseMicros(if self.arrived {
+        self.arrived = elapsed >= whole.saturating_add(self.spec.settle.to_micros());
+        self.pulse = PulseMicros(if elapsed >= whole {
             self.spec.to_us
         } else {
             between(self.spec.from_us, self.spec.to_us, elapsed, whole)
@@ -63,6 +63,7 @@ mod tests {
             from_us,
             to_us,
             duration: Millis(1_000),
+            settle: Millis(100),
             current: Milliamps(1),
             hold_current: Milliamps(1),
         };
@@ -76,6 +77,8 @@ mod tests {
             servo.advance(Micros(500_000));
             assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(middle), StepState::Moving));
             servo.advance(Micros(1_000_000));
+            assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(to), StepState::Moving), "it settles");
+            servo.advance(Micros(1_100_000));
             assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(to), StepState::Done));
             servo.advance(Micros(9_000_000));
             assert_eq!(servo.pulse(), PulseMicros(to));
@@ -85,7 +88,7 @@ mod tests {
     #[test]
     fn a_motion_without_duration_is_over_at_once() {
         let mut servo = mover(500, 1_500);
-        servo.spec.duration = Millis(0);
+        (servo.spec.duration, servo.spec.settle) = (Millis(0), Millis(0));
         servo.advance(Micros(0));
         assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(1_500), StepState::Done));
     }
