@@ -13,14 +13,15 @@ pub(crate) fn run() -> Result<()> {
     let requirements = suite.join("requirements.txt");
     ensure!(requirements.is_file(), "{} is missing", requirements.display());
 
-    tools::run(cargo().args(["build", "--package", "zygote-cli"]))?;
-    let python = environment(&tools::root().join("target/venv"))?;
+    let target = tools::root().join("target");
+    tools::run(cargo().args(["build", "--package", "zygote-cli", "--target-dir"]).arg(&target))?;
+    let python = environment(&target.join("venv"))?;
     tools::run(
         tools::command(&python)
             .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"])
             .arg(&requirements),
     )?;
-    let zygote = tools::root().join("target/debug/zygote").with_extension(env::consts::EXE_EXTENSION);
+    let zygote = target.join("debug/zygote").with_extension(env::consts::EXE_EXTENSION);
     tools::run(tools::command(&python).args(["-m", "pytest"]).arg(&suite).env("ZYGOTE", zygote))
 }
 
