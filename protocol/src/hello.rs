@@ -31,6 +31,11 @@ impl Hello {
     }
 }
 
+/// The versions and the schema hash at the front of a [`Hello`] or [`HelloReply`] of any version.
+pub fn peek_versions(payload: &[u8]) -> Option<Hello> {
+    postcard::take_from_bytes(payload).ok().map(|(hello, _)| hello)
+}
+
 /// MCU to host: the answer, given also to a host of another version.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
 pub struct HelloReply {

@@ -33,7 +33,9 @@ pub use command::{
     StepState,
 };
 pub use frame::{Decoder, FrameError, FrameKind, Header, MAX_ENCODED, MAX_PAYLOAD, decode_payload, encode};
-pub use hello::{Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN};
+pub use hello::{
+    Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, peek_versions,
+};
 pub use limits::{LimitName, Limits};
 pub use link::{Link, LinkCounters, Received, SendError, WINDOW};
 pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};

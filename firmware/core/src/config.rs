@@ -2,7 +2,7 @@
 
 use crate::thermistor::Thermistor;
 use core::ops::RangeInclusive;
-use zygote_protocol::{Identity, Limits};
+use zygote_protocol::{Channels, Identity, Limits};
 
 /// A board as the core sees it.
 #[derive(Debug, Clone)]
@@ -11,6 +11,8 @@ pub struct Config {
     pub identity: Identity,
     /// Ceilings that no session can raise (S13).
     pub ceiling: Limits,
+    /// How many of the core's channels are fitted; at most as many as the core has.
+    pub channels: Channels,
     /// The thermistors of the heaters.
     pub thermistor: Thermistor,
     /// Servo pulses that the board sends at all, microseconds.

@@ -16,7 +16,7 @@ use crate::event_queue::EventQueue;
 use crate::handlers;
 use crate::io::{Inputs, Outputs};
 use crate::mode::Mode;
-use crate::program::Program;
+use crate::program::{Program, index};
 use crate::sequencer::{Instant, Sequencer};
 use crate::supply_guard::SupplyGuard;
 use crate::thermal_guard::ThermalGuard;
@@ -97,16 +97,14 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         self.link.counters()
     }
 
-    pub(crate) const fn channels() -> Channels {
-        #[expect(
-            clippy::as_conversions,
-            clippy::cast_possible_truncation,
-            reason = "const; boards have few channels"
-        )]
-        const fn count(value: usize) -> u16 {
-            value as u16
+    /// The channels that can be used: fitted, and known to this core.
+    pub(crate) fn channels(&self) -> Channels {
+        let Channels { heaters, servos, springs } = self.config.channels;
+        Channels {
+            heaters: heaters.min(index(HEATERS)),
+            servos: servos.min(index(SERVOS)),
+            springs: springs.min(index(SPRINGS)),
         }
-        Channels { heaters: count(HEATERS), servos: count(SERVOS), springs: count(SPRINGS) }
     }
 
     /// Takes bytes from the host.
@@ -152,11 +150,11 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             schema: schema::hash(),
             identity: self.config.identity.clone(),
             ceiling: self.config.ceiling,
-            channels: Self::channels(),
+            channels: self.channels(),
             buffers: Buffers {
-                steps: crate::program::index(STEPS),
+                steps: index(STEPS),
                 window: u8::try_from(WINDOW).unwrap_or(u8::MAX),
-                payload: crate::program::index(MAX_PAYLOAD),
+                payload: index(MAX_PAYLOAD),
             },
         };
         let sent = self.link.send_hello_reply(session, &reply);
@@ -246,7 +244,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         }
         sensors.map_err(|(channel, trip)| {
             let step = self.program.steps().iter().position(|step| heater_of(&step.action) == Some(channel));
-            trip.at(now, step.map(crate::program::index), Some(crate::program::index(channel)))
+            trip.at(now, step.map(index), Some(index(channel)))
         })?;
         self.check_temperatures(now, &limits)?;
         self.supply_guard.check(self.current, limits.supply).map_err(|trip| trip.at(now, None, None))

@@ -97,7 +97,8 @@ fn commit<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     if !matches!(core.mode, Mode::Idle) {
         return Err(wrong_state(State::Idle, core.state()));
     }
-    core.program.commit(&core.config, Core::<H, S, R, STEPS>::channels())?;
+    let channels = core.channels();
+    core.program.commit(&core.config, channels)?;
     core.sequencer.load(core.program.steps());
     core.enter(now, Mode::Loaded);
     Ok(Reply::Done)

@@ -77,7 +77,11 @@ mod tests {
             servo.advance(Micros(500_000));
             assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(middle), StepState::Moving));
             servo.advance(Micros(1_000_000));
-            assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(to), StepState::Moving), "it settles");
+            assert_eq!(
+                (servo.pulse(), servo.step_state()),
+                (PulseMicros(to), StepState::Moving),
+                "it settles"
+            );
             servo.advance(Micros(1_100_000));
             assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(to), StepState::Done));
             servo.advance(Micros(9_000_000));

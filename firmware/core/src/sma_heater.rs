@@ -12,10 +12,9 @@ use crate::io::Duty;
 use crate::trip::Trip;
 use zygote_protocol::{CentiCelsius, FaultCode, Heat, Micros, Phase, StepState};
 
-/// The heater aims so far above the target, so that the target is passed and not only approached.
-const AIM_ABOVE: i16 = 200;
-/// Full power down to this distance below the aim, then proportionally less.
-const BAND: i16 = 600;
+/// Full power up to the target, none from this far above it on, proportionally less in between: so the target is
+/// passed by any heater that can reach it at all. Narrower, the lag of the thermistor would make it swing.
+const BAND: i16 = 400;
 
 #[derive(Debug, Clone, Copy)]
 enum State {
@@ -129,9 +128,9 @@ impl SmaHeater {
     }
 }
 
-/// Proportional control around a point a little above the target.
+/// Proportional control in a band above the target.
 fn thermostat(target: CentiCelsius, temperature: CentiCelsius) -> Duty {
-    let below = target.0.saturating_add(AIM_ABOVE).saturating_sub(temperature.0).clamp(0, BAND);
+    let below = target.0.saturating_add(BAND).saturating_sub(temperature.0).clamp(0, BAND);
     let per_mille = i32::from(below) * 1000 / i32::from(BAND);
     Duty::new(u16::try_from(per_mille).unwrap_or(0))
 }
@@ -165,8 +164,9 @@ mod tests {
         heater.advance(ms(0), COLD).unwrap();
         assert_eq!(heater.duty(), Duty::FULL);
         heater.advance(ms(1_000), CentiCelsius(9_000)).unwrap();
-        assert_eq!(heater.step_state(), StepState::Moving);
-        assert!(heater.duty() > Duty::OFF && heater.duty() < Duty::FULL);
+        assert_eq!((heater.step_state(), heater.duty()), (StepState::Moving, Duty::FULL));
+        heater.advance(ms(1_100), CentiCelsius(9_100)).unwrap();
+        assert_eq!((heater.step_state(), heater.duty()), (StepState::Moving, Duty::new(750)));
         heater.advance(ms(2_000), CentiCelsius(9_100)).unwrap();
         assert_eq!((heater.step_state(), heater.duty()), (StepState::Opened, Duty::OFF));
         heater.advance(ms(2_100), CentiCelsius(4_000)).unwrap();
@@ -194,8 +194,8 @@ mod tests {
     }
 
     #[test]
-    fn power_falls_to_nothing_above_the_aim() {
-        assert_eq!(thermostat(SPEC.target, CentiCelsius(9_200)), Duty::OFF);
+    fn power_falls_to_nothing_above_the_band() {
+        assert_eq!(thermostat(SPEC.target, CentiCelsius(9_400)), Duty::OFF);
         assert_eq!(thermostat(SPEC.target, CentiCelsius(i16::MAX)), Duty::OFF);
         assert_eq!(thermostat(SPEC.target, CentiCelsius(i16::MIN)), Duty::FULL);
     }
