@@ -1,5 +1,6 @@
 //! What the board tells the core about itself: who it is, and what no host can ask of it.
 
+use crate::pins::CHANNELS;
 use zygote_core::{Config, NTC_10K};
 use zygote_protocol::{CentiCelsius, Identity, Limits, Milliamps, Millis, ResetCause};
 
@@ -25,5 +26,11 @@ pub(crate) fn config(boot: u32, reset: ResetCause) -> Config {
         reset,
     };
     // No servo on this board yet; the range is that of common ones.
-    Config { identity, ceiling: CEILING, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 }
+    Config {
+        identity,
+        ceiling: CEILING,
+        channels: CHANNELS,
+        thermistor: NTC_10K,
+        servo_pulse_us: 500..=2_500,
+    }
 }
