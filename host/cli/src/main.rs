@@ -1,9 +1,15 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
 mod check;
+mod deploy;
 mod failure;
+mod identity;
+mod input;
+mod interrupt;
 mod output;
 mod plan;
+mod sim;
+mod sim_rig;
 mod verb;
 
 use clap::Parser;

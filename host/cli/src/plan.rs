@@ -58,7 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let report = check(&fold::parse(&bytes).or_failed()?);
     if !report.is_valid() {
         let lines = report.lines(3).join("\n  ");
-        return Err(Failure::Failed(anyhow!("a fault of this program: its own plan breaks rules\n  {lines}")));
+        return Err(Failure::Failed(anyhow!(
+            "a fault of this program: its own plan breaks rules\n  {lines}"
+        )));
     }
     write_file(&arguments.output, &bytes)?;
     say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));

@@ -77,10 +77,10 @@ fn sma(truth: &SmaPlant, start_deg: f64, opening_deg: f64) -> SmaConfig {
     sma.convection_w_per_m2_k = truth.convection.0;
     sma.panel_w_per_k = truth.panel_conductance.0;
     sma.load_mn_m = truth.load.0 * 1e3;
-    sma.alloy.martensite_finish_c = truth.martensite_finish.0;
-    sma.alloy.martensite_start_c = truth.martensite_start.0;
-    sma.alloy.austenite_start_c = truth.austenite_start.0;
-    sma.alloy.austenite_finish_c = truth.austenite_finish.0;
+    sma.alloy.mf_c = truth.martensite_finish.0;
+    sma.alloy.ms_c = truth.martensite_start.0;
+    sma.alloy.as_c = truth.austenite_start.0;
+    sma.alloy.af_c = truth.austenite_finish.0;
     sma
 }
 
