@@ -1,7 +1,11 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
+mod check;
 mod failure;
 mod output;
+mod picture;
+mod plan;
+mod schedule;
 mod verb;
 
 use clap::Parser;
