@@ -133,6 +133,21 @@ impl Kinematics {
         poses.iter().zip(&self.corners).map(|(pose, corners)| corners_at(pose, corners)).collect()
     }
 
+    /// Of every panel, how much it still is a layer of a stack, from 1 in the zygote to 0 when the hinge that moves it
+    /// is open; positive where the pile goes up along the panel's outer normal, negative where it goes down.
+    pub(crate) fn layers(&self, fractions: &[f64]) -> Vec<f64> {
+        let fraction = |hinge: usize| fractions.get(hinge).copied().unwrap_or(0.0);
+        let mut layers: Vec<_> = self.zygote_from_panel.iter().map(|pose| pose.matrix3.z_axis.z).collect();
+        // Nothing moves the root; it is a layer until something opens next to it.
+        for joint in &self.joints {
+            layers[joint.child] *= 1.0 - fraction(joint.hinge);
+            if joint.parent == self.root {
+                layers[self.root] *= 1.0 - fraction(joint.hinge);
+            }
+        }
+        layers
+    }
+
     /// The root's height above the lowest panel, so that a zygote stands on z = 0.
     fn root_height(&self) -> f64 {
         let mut height = vec![0.0_f64; self.panels()];
