@@ -23,7 +23,8 @@ pub(crate) struct Arguments {
 /// Checks a plan and lists what it breaks.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.plan.display();
-    let bytes = fs::read(&arguments.plan).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
+    let bytes =
+        fs::read(&arguments.plan).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
     let file = fold::parse(&bytes).with_context(|| format!("{name}: no plan")).or_bad_input()?;
     let report = check(&file);
     if report.is_valid() {

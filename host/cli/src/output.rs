@@ -7,7 +7,8 @@ use std::{fs, process};
 
 /// Writes a file beside its place and then moves it there, so that no reader ever sees half of it.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let name = path.file_name().with_context(|| format!("{}: names no file", path.display())).or_bad_input()?;
+    let name =
+        path.file_name().with_context(|| format!("{}: names no file", path.display())).or_bad_input()?;
     let temporary = path.with_file_name(format!(".{}.{}.tmp", name.to_string_lossy(), process::id()));
     let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {

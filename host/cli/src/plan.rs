@@ -58,7 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let report = check(&fold::parse(&bytes).or_failed()?);
     if !report.is_valid() {
         let lines = report.lines(3).join("\n  ");
-        return Err(Failure::Failed(anyhow!("a fault of this program: its own plan breaks rules\n  {lines}")));
+        return Err(Failure::Failed(anyhow!(
+            "a fault of this program: its own plan breaks rules\n  {lines}"
+        )));
     }
     write_file(&arguments.output, &bytes)?;
     say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
@@ -71,7 +73,7 @@ pub(crate) fn summary(figures: &Figures) -> String {
     let Figures { panels, piles, height, grid: [across, along], bridges, high_degree_panels, .. } = figures;
     let [by_90, by_180, by_270] = figures.openings;
     format!(
-        "{panels} panels in {piles} piles of {height} on {across} x {along} cells\n\
+        "N = {panels} panels, K = {piles} piles, {height} high, on {across} x {along} cells\n\
          bridges: {bridges}, high-degree panels: {high_degree_panels}, package-volume ratio: {:.1}, \
          hinges opening by 90/180/270 degrees: {by_90}/{by_180}/{by_270}",
         figures.expansion_ratio
