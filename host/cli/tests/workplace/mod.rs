@@ -1,5 +1,7 @@
 //! A folder of its own for each test, and the `zygote` command run in it.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot set up its folder fails")]
+
 use std::path::PathBuf;
 use std::process::Command;
 use std::{env, fs};
