@@ -1,1 +1,24 @@
-//! x
+//! From a **plan** and a **rig** to a **schedule** of hinge motions, and how the panels move along it.
+//!
+//! ```text
+//! rig.toml -> Rig --fit--> a fitting a hinge ---+
+//!                                               +--> Schedule (steps, one a hinge) --verify--> a run
+//! plan ------> Tree --order--> hinges in order -+
+//! plan ------> Kinematics --> poses of all panels --> picture (SVG)
+//! ```
+//!
+//! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
+
+mod heating;
+mod kinematics;
+pub mod picture;
+mod rig;
+mod schedule;
+#[cfg(test)]
+mod testing;
+mod tree;
+
+pub use kinematics::Kinematics;
+pub use rig::*;
+pub use schedule::*;
+pub use tree::{Branch, Tree, TreeError};

@@ -1,0 +1,60 @@
+//! Why a rig file is refused, by itself or for a plan.
+
+use super::places::Place;
+use super::settings::Kind;
+
+/// A rig file that can't be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RigError {
+    /// No TOML, a key that doesn't exist or is missing, a wrong unit.
+    #[error("{place}: {message}")]
+    Parse {
+        /// Where.
+        place: Place,
+        /// What the reader of TOML says: what it found and what it expected.
+        message: String,
+    },
+    /// A value that breaks a rule of the rig file.
+    #[error("{place}: expected {expected}, found {found}")]
+    Value {
+        /// Where.
+        place: Place,
+        /// The rule.
+        expected: String,
+        /// The value.
+        found: String,
+    },
+    /// A hinge number that the plan doesn't have.
+    #[error("{place}: expected a hinge of the plan, 0 to {last}, found {hinge}")]
+    NoSuchHinge {
+        /// Where.
+        place: Place,
+        /// The number in the rig file.
+        hinge: usize,
+        /// The plan's last hinge.
+        last: usize,
+    },
+    /// The plan has more hinges of a kind than the node can drive.
+    #[error(
+        "{place}: too few {} channels: the plan needs {needed} for its {} hinges, the node has {available}",
+        kind.channel_key(), kind.name()
+    )]
+    TooFewChannels {
+        /// Where.
+        place: Place,
+        /// Kind of hinge.
+        kind: Kind,
+        /// Hinges of the kind.
+        needed: usize,
+        /// Channels of the kind.
+        available: u16,
+    },
+    /// Not supported yet.
+    #[error("{place}: a schedule can use one node for now, found {nodes}")]
+    SeveralNodes {
+        /// Where.
+        place: Place,
+        /// How many there are.
+        nodes: usize,
+    },
+}

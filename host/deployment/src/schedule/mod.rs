@@ -1,0 +1,147 @@
+//! The schedule: one step a hinge, in the order in which the MCU gets them. `docs/src/schedule.md` is the page
+//! for its JSON.
+//!
+//! [`Schedule::plan`] makes one, [`Schedule::verify`] holds it against plan and rig without using what made it.
+
+mod fingerprint;
+mod list;
+mod motion;
+mod units;
+mod verify;
+
+pub use fingerprint::Fingerprint;
+pub use list::SchedulingError;
+pub use motion::{Motion, ServoMotion, SmaMotion, SpringMotion};
+pub use units::{CentiCelsius, Micros, Milliamps, Millis};
+pub use verify::VerifyError;
+
+use serde::{Deserialize, Serialize};
+
+/// The one version of the schedule.
+const VERSION: u32 = 1;
+
+/// A step waits for at most this many others: the wire has room for no more.
+pub const MOST_AFTER: usize = 4;
+
+/// A deployment: one step a hinge.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Schedule {
+    version: u32,
+    /// The rig that it was made for.
+    pub rig: String,
+    /// The plan that it was made for.
+    pub plan_crc64: Fingerprint,
+    /// Most motions at once.
+    pub parallel: usize,
+    /// The supply limit that it keeps.
+    #[serde(rename = "supply_limit_ma")]
+    pub supply_limit: Milliamps,
+    /// The highest sum of currents.
+    #[serde(rename = "peak_current_ma")]
+    pub peak_current: Milliamps,
+    /// When the last hinge is opened, as expected.
+    #[serde(rename = "makespan_ms")]
+    pub makespan: Millis,
+    /// The steps; each comes after all that it waits for.
+    pub steps: Vec<Step>,
+}
+
+/// The motion of one hinge.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// Number of the hinge in the plan.
+    pub hinge: usize,
+    /// Index of the node in the rig file.
+    pub node: usize,
+    /// Channel of the node, of the motion's kind.
+    pub channel: u16,
+    /// Indices of the steps that must be opened before this one starts, rising, each below this step's own; the
+    /// hinge before this one in the tree is among them.
+    pub after: Vec<usize>,
+    /// Opening angle in the zygote, degrees.
+    pub from_opening_deg: u16,
+    /// Opening angle in the target, degrees.
+    pub opening_deg: u16,
+    /// When it starts, as expected; a run goes by `after`.
+    #[serde(rename = "start_ms")]
+    pub start: Millis,
+    /// From the start until the hinge is opened, as expected.
+    #[serde(rename = "duration_ms")]
+    pub duration: Millis,
+    /// The most that it draws in that time.
+    #[serde(rename = "current_ma")]
+    pub current: Milliamps,
+    /// What it draws from then until the run ends.
+    #[serde(rename = "hold_current_ma")]
+    pub hold_current: Milliamps,
+    /// What the MCU does.
+    pub motion: Motion,
+}
+
+impl Step {
+    /// When the hinge is opened, as expected.
+    pub fn opened(&self) -> Millis {
+        self.start + self.duration
+    }
+}
+
+/// A schedule that can't be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// Made by another version of this program.
+    #[error("schedule: expected version {VERSION}, found {found}; make it anew with `zygote schedule`")]
+    Version {
+        /// What stands there.
+        found: String,
+    },
+    /// No JSON, a key too many, missing or of the wrong kind.
+    #[error("schedule: {source}")]
+    Json {
+        /// What the reader of JSON says.
+        #[from]
+        source: serde_json::Error,
+    },
+}
+
+impl Schedule {
+    /// Reads the value of a plan's `zygote:schedule`.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it isn't a schedule of this version; [`Schedule::verify`] looks at what it says.
+    pub fn from_json(value: &serde_json::Value) -> Result<Self, ReadError> {
+        // Before the keys: another version may have keys that this one doesn't know.
+        match value.get("version") {
+            Some(version) if version.as_u64() == Some(u64::from(VERSION)) => Ok(Self::deserialize(value)?),
+            found => Err(ReadError::Version { found: found.map_or("none".to_owned(), ToString::to_string) }),
+        }
+    }
+
+    /// Reads a schedule file.
+    ///
+    /// # Errors
+    /// As [`Schedule::from_json`].
+    pub fn from_text(text: &str) -> Result<Self, ReadError> {
+        Self::from_json(&serde_json::from_str(text)?)
+    }
+
+    /// The value for a plan's `zygote:schedule`.
+    ///
+    /// # Errors
+    /// [`ReadError::Json`] if a number doesn't fit JSON.
+    pub fn to_json(&self) -> Result<serde_json::Value, ReadError> {
+        Ok(serde_json::to_value(self)?)
+    }
+
+    /// A schedule file, ending with a line end.
+    ///
+    /// # Errors
+    /// [`ReadError::Json`] if a number doesn't fit JSON.
+    pub fn to_text(&self) -> Result<String, ReadError> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+}
+
+#[cfg(test)]
+mod tests;

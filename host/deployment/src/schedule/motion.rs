@@ -1,0 +1,172 @@
+//! What the MCU is told to do with one hinge: the rig's settings, resolved for that hinge.
+
+use super::units::{CentiCelsius, Micros, Milliamps, Millis};
+use crate::heating;
+use crate::rig::{Drive, Kind, Rig, Seconds, ServoSettings, SmaSettings, SpringSettings};
+use serde::{Deserialize, Serialize};
+use zygote_stacking::{Hinge, HingeKind};
+
+/// The motion of one hinge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum Motion {
+    /// Heat, hold, then cool without being waited for.
+    Sma(SmaMotion),
+    /// Lead the pulse from one width to another, then hold it.
+    Servo(ServoMotion),
+    /// Energise the release, then wait.
+    Spring(SpringMotion),
+}
+
+/// Heating of a shape-memory hinge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SmaMotion {
+    /// Temperature to heat to and to hold.
+    #[serde(rename = "target_centi_celsius")]
+    pub target: CentiCelsius,
+    /// Time at the target after which the hinge is opened.
+    #[serde(rename = "hold_ms")]
+    pub hold: Millis,
+    /// Longest time that the heater may be on (S4).
+    #[serde(rename = "max_on_ms")]
+    pub max_on: Millis,
+    /// Hotter is a fault (S4).
+    #[serde(rename = "max_temperature_centi_celsius")]
+    pub max_temperature: CentiCelsius,
+    /// Cooled at this temperature.
+    #[serde(rename = "cool_to_centi_celsius")]
+    pub cool_to: CentiCelsius,
+    /// Least time without heating afterwards (S4).
+    #[serde(rename = "rest_ms")]
+    pub rest: Millis,
+    /// A smaller rise than this in `gain_window` while heating is a fault (S6).
+    #[serde(rename = "min_gain_centi_celsius")]
+    pub min_gain: CentiCelsius,
+    /// See `min_gain`.
+    #[serde(rename = "gain_window_ms")]
+    pub gain_window: Millis,
+}
+
+/// Move of a servo hinge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ServoMotion {
+    /// Pulse at the start.
+    #[serde(rename = "from_us")]
+    pub from: Micros,
+    /// Pulse at the end, held until the run ends.
+    #[serde(rename = "to_us")]
+    pub to: Micros,
+    /// Time from one to the other.
+    #[serde(rename = "move_ms")]
+    pub duration: Millis,
+    /// Wait after it.
+    #[serde(rename = "settle_ms")]
+    pub settle: Millis,
+}
+
+/// Release of a spring hinge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpringMotion {
+    /// How long the release is energised.
+    #[serde(rename = "pulse_ms")]
+    pub pulse: Millis,
+    /// Wait after it.
+    #[serde(rename = "settle_ms")]
+    pub settle: Millis,
+}
+
+/// A motion with what planning needs to know of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Cost {
+    pub(crate) motion: Motion,
+    /// From the start until the hinge is opened, as expected.
+    pub(crate) duration: Millis,
+    /// The most that it draws in that time.
+    pub(crate) current: Milliamps,
+    /// What it draws from then on.
+    pub(crate) hold_current: Milliamps,
+}
+
+impl Motion {
+    /// What moves the hinge.
+    pub const fn kind(&self) -> Kind {
+        match self {
+            Self::Sma(_) => Kind::Sma,
+            Self::Servo(_) => Kind::Servo,
+            Self::Spring(_) => Kind::Spring,
+        }
+    }
+}
+
+/// Opening angle of a hinge in the zygote, degrees: a fold is closed, a bridge is flat.
+pub(crate) const fn start_opening_deg(hinge: &Hinge) -> u16 {
+    match hinge.kind {
+        HingeKind::Fold => 0,
+        HingeKind::Bridge => 180,
+    }
+}
+
+impl Cost {
+    /// What moving `hinge` with `drive` takes.
+    pub(crate) fn new(rig: &Rig, hinge: &Hinge, drive: &Drive) -> Self {
+        match drive {
+            Drive::Sma(sma) => Self::sma(rig, sma),
+            Drive::Servo(servo) => Self::servo(hinge, servo),
+            Drive::Spring(spring) => Self::spring(spring),
+        }
+    }
+
+    fn sma(rig: &Rig, sma: &SmaSettings) -> Self {
+        let motion = SmaMotion {
+            target: sma.target.into(),
+            hold: Millis::at_least(sma.hold),
+            max_on: Millis::at_least(sma.max_on),
+            max_temperature: sma.max_temperature.into(),
+            cool_to: sma.cool_to.into(),
+            rest: Millis::at_least(sma.rest),
+            min_gain: sma.min_gain.into(),
+            gain_window: Millis::at_least(sma.gain_window),
+        };
+        Self {
+            motion: Motion::Sma(motion),
+            duration: Millis::at_least(heating::time_to_target(rig, sma)) + motion.hold,
+            current: Milliamps::at_least(heating::current(rig, sma)),
+            hold_current: Milliamps(0),
+        }
+    }
+
+    fn servo(hinge: &Hinge, servo: &ServoSettings) -> Self {
+        let (from, to) = (f64::from(start_opening_deg(hinge)), f64::from(hinge.opening_deg));
+        let pulse = |deg: f64| {
+            let share = deg / 270.0;
+            Micros::nearest(Seconds(servo.pulse_0.0 + share * (servo.pulse_270.0 - servo.pulse_0.0)))
+        };
+        let motion = ServoMotion {
+            from: pulse(from),
+            to: pulse(to),
+            duration: Millis::at_least(Seconds((to - from).abs() / servo.speed.0)),
+            settle: Millis::at_least(servo.settle),
+        };
+        Self {
+            motion: Motion::Servo(motion),
+            duration: motion.duration + motion.settle,
+            current: Milliamps::at_least(servo.current),
+            hold_current: Milliamps::at_least(servo.hold_current),
+        }
+    }
+
+    /// The current counts for the settling too: a little unused supply is cheaper than a second figure a step.
+    fn spring(spring: &SpringSettings) -> Self {
+        let motion =
+            SpringMotion { pulse: Millis::at_least(spring.pulse), settle: Millis::at_least(spring.settle) };
+        Self {
+            motion: Motion::Spring(motion),
+            duration: motion.pulse + motion.settle,
+            current: Milliamps::at_least(spring.current),
+            hold_current: Milliamps(0),
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! Holds a schedule against its plan and rig. Shares nothing with what makes schedules but the rig's settings
+//! and the tree: what is wrong there, or was changed by hand since, is found here.
+
+use super::motion::{Cost, start_opening_deg};
+use super::{Fingerprint, MOST_AFTER, Milliamps, Millis, Schedule};
+use crate::rig::{Kind, Rig, RigError};
+use crate::tree::{Tree, TreeError};
+use std::collections::BTreeMap;
+use zygote_stacking::Plan;
+
+/// Why a schedule must not be run.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum VerifyError {
+    /// Made for another plan.
+    #[error(
+        "schedule: it belongs to the plan {schedule}, this plan is {plan}; make it anew with `zygote schedule`"
+    )]
+    OtherPlan {
+        /// Fingerprint in the schedule.
+        schedule: Fingerprint,
+        /// Fingerprint of the plan.
+        plan: Fingerprint,
+    },
+    /// Made for another rig.
+    #[error(
+        "schedule: it belongs to the rig \"{schedule}\", this rig is \"{rig}\"; make it anew with `zygote schedule`"
+    )]
+    OtherRig {
+        /// Id in the schedule.
+        schedule: String,
+        /// Id in the rig file.
+        rig: String,
+    },
+    /// The rig can't drive the plan.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+    /// The plan is no tree.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// Something that a whole schedule says isn't so.
+    #[error("schedule: {key} should be {expected}, found {found}")]
+    Whole {
+        /// Which key.
+        key: &'static str,
+        /// What follows from the steps, the plan or the rig.
+        expected: String,
+        /// What the schedule says.
+        found: String,
+    },
+    /// Something that a step says isn't so.
+    #[error("schedule: step {step} (hinge {hinge}): {key} should be {expected}, found {found}")]
+    Step {
+        /// Index of the step.
+        step: usize,
+        /// Its hinge.
+        hinge: usize,
+        /// Which key.
+        key: &'static str,
+        /// What follows from other steps, the plan or the rig.
+        expected: String,
+        /// What the schedule says.
+        found: String,
+    },
+    /// More current than the supply gives.
+    #[error("schedule: at {time} the motions draw {drawn}, expected at most the supply limit of {limit}")]
+    Current {
+        /// When.
+        time: Millis,
+        /// The sum of currents.
+        drawn: Milliamps,
+        /// The limit.
+        limit: Milliamps,
+    },
+    /// More motions at once than the schedule allows.
+    #[error("schedule: at {time} there are {found} motions, expected at most {most} at once")]
+    TooManyAtOnce {
+        /// When.
+        time: Millis,
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
+}
+
+impl Schedule {
+    /// Checks that this schedule is for this plan and rig, and safe to run on it as far as it says: every hinge
+    /// once, in the order of the tree, on its channel and with its settings, within the supply limit.
+    ///
+    /// # Errors
+    /// [`VerifyError`] with the first thing that is wrong.
+    pub fn verify(&self, plan: &Plan, rig: &Rig) -> Result<(), VerifyError> {
+        let fingerprint = Fingerprint::of(plan);
+        if self.plan_crc64 != fingerprint {
+            return Err(VerifyError::OtherPlan { schedule: self.plan_crc64, plan: fingerprint });
+        }
+        if self.rig != rig.id {
+            return Err(VerifyError::OtherRig { schedule: self.rig.clone(), rig: rig.id.clone() });
+        }
+        let limit = Milliamps::at_most(rig.supply.limit);
+        whole("supply_limit_ma", limit, self.supply_limit)?;
+        whole("number of steps", plan.hinges.len(), self.steps.len())?;
+        let step_of_hinge = self.step_of_hinge(plan)?;
+        self.verify_order(plan, &step_of_hinge)?;
+        self.verify_settings(plan, rig)?;
+        self.verify_load()
+    }
+
+    fn refuse(
+        &self,
+        step: usize,
+        key: &'static str,
+        expected: impl ToString,
+        found: impl ToString,
+    ) -> VerifyError {
+        let hinge = self.steps[step].hinge;
+        VerifyError::Step { step, hinge, key, expected: expected.to_string(), found: found.to_string() }
+    }
+
+    /// The step of every hinge: each has one.
+    fn step_of_hinge(&self, plan: &Plan) -> Result<Vec<usize>, VerifyError> {
+        let mut steps = vec![None; plan.hinges.len()];
+        for (index, step) in self.steps.iter().enumerate() {
+            let slot = steps.get_mut(step.hinge).ok_or_else(|| {
+                self.refuse(index, "hinge", format!("less than {}", plan.hinges.len()), step.hinge)
+            })?;
+            if let Some(other) = slot.replace(index) {
+                return Err(self.refuse(
+                    index,
+                    "hinge",
+                    format!("another than that of step {other}"),
+                    step.hinge,
+                ));
+            }
+        }
+        // As many steps as hinges and none twice: none is missing.
+        Ok(steps.into_iter().flatten().collect())
+    }
+
+    /// S10: after the hinge before it in the tree, and after nothing that comes later.
+    fn verify_order(&self, plan: &Plan, step_of_hinge: &[usize]) -> Result<(), VerifyError> {
+        for (index, step) in self.steps.iter().enumerate() {
+            if step.after.len() > MOST_AFTER {
+                let most = format!("at most {MOST_AFTER} steps");
+                return Err(self.refuse(index, "after", most, step.after.len()));
+            }
+            let rising = step.after.windows(2).all(|pair| pair[0] < pair[1]);
+            if !rising || step.after.last().is_some_and(|last| *last >= index) {
+                return Err(self.refuse(
+                    index,
+                    "after",
+                    "rising and below its own index",
+                    format!("{:?}", step.after),
+                ));
+            }
+            for &other in &step.after {
+                let opened = self.steps[other].opened();
+                if step.start < opened {
+                    let expected = format!("at least {opened}, when step {other} is opened");
+                    return Err(self.refuse(index, "start_ms", expected, step.start));
+                }
+            }
+        }
+        for branch in Tree::new(plan)?.branches() {
+            let step = step_of_hinge[branch.hinge];
+            let before = branch.before.map(|hinge| step_of_hinge[hinge]);
+            if before.is_some_and(|before| !self.steps[step].after.contains(&before)) {
+                let expected = format!("with step {}, the hinge before it", before.unwrap_or_default());
+                return Err(self.refuse(step, "after", expected, format!("{:?}", self.steps[step].after)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Channels, angles and motions are those of plan and rig, and no channel is used twice.
+    fn verify_settings(&self, plan: &Plan, rig: &Rig) -> Result<(), VerifyError> {
+        let fittings = rig.fit(plan.hinges.len())?;
+        let mut users: BTreeMap<(usize, Kind, u16), usize> = BTreeMap::new();
+        for (index, step) in self.steps.iter().enumerate() {
+            let (hinge, fitting) = (&plan.hinges[step.hinge], &fittings[step.hinge]);
+            let cost = Cost::new(rig, hinge, &fitting.drive);
+            let same = |key, expected: String, found: String| {
+                if expected == found { Ok(()) } else { Err(self.refuse(index, key, expected, found)) }
+            };
+            same("node", fitting.node.to_string(), step.node.to_string())?;
+            same("motion", format!("{:?}", cost.motion), format!("{:?}", step.motion))?;
+            same("channel", fitting.channel.to_string(), step.channel.to_string())?;
+            same(
+                "from_opening_deg",
+                start_opening_deg(hinge).to_string(),
+                step.from_opening_deg.to_string(),
+            )?;
+            same("opening_deg", hinge.opening_deg.to_string(), step.opening_deg.to_string())?;
+            same("duration_ms", cost.duration.to_string(), step.duration.to_string())?;
+            same("current_ma", cost.current.to_string(), step.current.to_string())?;
+            same("hold_current_ma", cost.hold_current.to_string(), step.hold_current.to_string())?;
+            if let Some(other) = users.insert((step.node, step.motion.kind(), step.channel), index) {
+                return Err(self.refuse(
+                    index,
+                    "channel",
+                    format!("another than that of step {other}"),
+                    step.channel,
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Currents and motions at once, at every moment at which something changes; makespan and peak.
+    fn verify_load(&self) -> Result<(), VerifyError> {
+        // (time, change of current, change of motions); at one time endings come first, being negative.
+        let mut changes: Vec<(Millis, i128, i32)> = Vec::with_capacity(2 * self.steps.len());
+        for step in &self.steps {
+            let (current, hold) = (i128::from(step.current.0), i128::from(step.hold_current.0));
+            changes.push((step.start, current, 1));
+            changes.push((step.opened(), hold - current, -1));
+        }
+        changes.sort_unstable_by_key(|(time, _, motions)| (*time, *motions));
+        let (mut drawn, mut peak, mut motions) = (0_i128, 0_i128, 0_i32);
+        for (time, current, motion) in changes {
+            drawn += current;
+            peak = peak.max(drawn);
+            motions += motion;
+            if drawn > i128::from(self.supply_limit.0) {
+                let drawn = Milliamps(u64::try_from(drawn).unwrap_or(u64::MAX));
+                return Err(VerifyError::Current { time, drawn, limit: self.supply_limit });
+            }
+            let found = usize::try_from(motions).unwrap_or(0);
+            if found > self.parallel {
+                return Err(VerifyError::TooManyAtOnce { time, found, most: self.parallel });
+            }
+        }
+        whole("peak_current_ma", Milliamps(u64::try_from(peak).unwrap_or(u64::MAX)), self.peak_current)?;
+        let makespan = self.steps.iter().map(super::Step::opened).max().unwrap_or_default();
+        whole("makespan_ms", makespan, self.makespan)
+    }
+}
+
+fn whole<T: PartialEq + ToString>(key: &'static str, expected: T, found: T) -> Result<(), VerifyError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(VerifyError::Whole { key, expected: expected.to_string(), found: found.to_string() })
+}
