@@ -1,15 +1,36 @@
 //! The table of verbs.
 
 use crate::failure::Failure;
+use crate::{check, deploy, picture, plan, schedule, sim};
 use clap::Subcommand;
 
 /// A verb and its arguments.
 #[derive(Subcommand)]
-pub(crate) enum Verb {}
+pub(crate) enum Verb {
+    /// Plan how panels stack into piles and unfold into a shape
+    Plan(plan::Arguments),
+    /// Check that a plan breaks no rule
+    Check(check::Arguments),
+    /// Put the hinges of a plan in order and time for a rig
+    Schedule(schedule::Arguments),
+    /// Draw a plan: stack, shape, or the way between them
+    Picture(picture::Arguments),
+    /// Run a plan's schedule on a board or on the simulator
+    Deploy(deploy::Arguments),
+    /// Serve a simulated board on a pseudo-terminal
+    Sim(sim::Arguments),
+}
 
 impl Verb {
     /// Does what the user asked for.
     pub(crate) fn run(self) -> Result<(), Failure> {
-        match self {}
+        match self {
+            Self::Plan(arguments) => plan::run(&arguments),
+            Self::Check(arguments) => check::run(&arguments),
+            Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Sim(arguments) => sim::run(&arguments),
+            Self::Schedule(arguments) => schedule::run(&arguments),
+            Self::Picture(arguments) => picture::run(&arguments),
+        }
     }
 }

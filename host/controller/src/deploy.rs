@@ -113,14 +113,14 @@ pub fn deploy<T: Transport>(
     upload(session, run, &rig_id, &steps)?;
     log.add(session.now(), &Record::Uploaded { run, steps: steps.len() });
     let report = RunReport::new(run, schedule, &board, &firmware);
-    let mut watch = Watch { schedule, fittings, report, started: None, ended: None, log };
+    let mut watch = Watch { schedule, fittings, report, started: None, ended: None, finished: false, log };
     if let Err(error) = start(session, run, rig_id, limits) {
         // Perhaps it is armed; the error is what the user must know, not whether this last word got through.
         session.stop().ok();
         return Err(error.into());
     }
     let outcome = watch.until_the_end(session, deployment.interrupted, show);
-    watch.settle(session, outcome)
+    Ok(watch.settle(session, outcome))
 }
 
 fn make_ready<T: Transport>(session: &mut Session<T>, clear: bool) -> Result<(), DeployError> {
@@ -175,6 +175,8 @@ struct Watch<'a> {
     /// MCU time of the start and of the end.
     started: Option<Micros>,
     ended: Option<Micros>,
+    /// The MCU says that every step is done.
+    finished: bool,
     log: &'a mut EventLog,
 }
 
@@ -197,13 +199,12 @@ impl Watch<'_> {
             let now = session.now();
             match notice {
                 None => {}
-                Some(Notice::Event(event)) => {
-                    if self.take_event(now, &event) {
-                        return Outcome::Deployed;
-                    }
-                }
+                Some(Notice::Event(event)) => self.take_event(now, &event),
                 Some(Notice::Fault(fault)) => return self.take_fault(now, &fault),
                 Some(Notice::Telemetry(telemetry)) => show(&self.take_telemetry(now, &telemetry)),
+            }
+            if self.finished {
+                return Outcome::Deployed;
             }
         }
     }
@@ -234,8 +235,7 @@ impl Watch<'_> {
         self.started.map(|started| seconds(at.since(started)))
     }
 
-    /// Books an event; true when the run is finished.
-    fn take_event(&mut self, now: Micros, event: &Event) -> bool {
+    fn take_event(&mut self, now: Micros, event: &Event) {
         let mcu_us = event.at.0;
         let at = self.seconds(event.at);
         let record = match event.kind {
@@ -265,7 +265,7 @@ impl Watch<'_> {
             }
         };
         self.log.add(now, &record);
-        event.kind == EventKind::State(State::Finished)
+        self.finished |= event.kind == EventKind::State(State::Finished);
     }
 
     fn book(
@@ -300,7 +300,7 @@ impl Watch<'_> {
             .iter()
             .filter_map(|motion| {
                 let step = self.schedule.steps.get(usize::from(motion.step))?;
-                Some(MotionState::new(motion, step, &self.fittings.get(step.hinge)?.drive))
+                Some(MotionState::new(*motion, step, &self.fittings.get(step.hinge)?.drive))
             })
             .collect();
         let temperatures =
@@ -319,11 +319,7 @@ impl Watch<'_> {
     }
 
     /// Asks the MCU for the last word on every step, and closes the report.
-    fn settle<T: Transport>(
-        mut self,
-        session: &mut Session<T>,
-        outcome: Outcome,
-    ) -> Result<RunReport, DeployError> {
+    fn settle<T: Transport>(mut self, session: &mut Session<T>, outcome: Outcome) -> RunReport {
         let outcome = match outcome {
             Outcome::Lost(why) => Outcome::Lost(why),
             ended => match self.ask_states(session) {
@@ -335,7 +331,7 @@ impl Watch<'_> {
             self.report.duration_s = seconds(ended.since(started));
         }
         self.report.finish(outcome, session.link_counters());
-        Ok(self.report)
+        self.report
     }
 
     fn ask_states<T: Transport>(&mut self, session: &mut Session<T>) -> Result<(), RequestError> {

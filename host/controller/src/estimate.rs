@@ -19,7 +19,7 @@ pub struct MotionState {
 
 impl MotionState {
     /// What a motion of the telemetry means for its step.
-    pub(crate) fn new(motion: &Motion, step: &Step, drive: &Drive) -> Self {
+    pub(crate) fn new(motion: Motion, step: &Step, drive: &Drive) -> Self {
         let (from, to) = (f64::from(step.from_opening_deg), f64::from(step.opening_deg));
         let celsius = |temperature: zygote_protocol::CentiCelsius| f64::from(temperature.0) / 100.0;
         let (phase, temperature_c, share) = match motion.phase {

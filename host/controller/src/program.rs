@@ -1,5 +1,6 @@
 //! A schedule in the words of the wire: the steps, and the limits to ask for.
 
+use std::fmt::Display;
 use std::num::TryFromIntError;
 use zygote_deployment::{Motion, Rig, Schedule};
 use zygote_protocol::{
@@ -17,7 +18,7 @@ pub enum ProgramError {
         /// Which number.
         what: &'static str,
         /// The number.
-        value: i64,
+        value: String,
         /// Why.
         #[source]
         source: TryFromIntError,
@@ -75,7 +76,7 @@ pub enum ProgramError {
 }
 
 /// Narrows a number of a step to what the wire carries.
-fn fit<V: Copy + Into<i128>, N: TryFrom<V, Error = TryFromIntError>>(
+fn fit<V: Copy + Display, N: TryFrom<V, Error = TryFromIntError>>(
     step: usize,
     what: &'static str,
     value: V,
@@ -83,7 +84,7 @@ fn fit<V: Copy + Into<i128>, N: TryFrom<V, Error = TryFromIntError>>(
     N::try_from(value).map_err(|source| ProgramError::TooLarge {
         step,
         what,
-        value: i64::try_from(value.into()).unwrap_or(i64::MAX),
+        value: value.to_string(),
         source,
     })
 }

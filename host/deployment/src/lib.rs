@@ -11,6 +11,7 @@
 
 mod heating;
 mod kinematics;
+pub mod picture;
 mod rig;
 mod schedule;
 #[cfg(test)]

@@ -14,6 +14,43 @@ pub enum Side {
     S,
 }
 
+impl Side {
+    /// The four sides, each a quarter turn counter-clockwise from the one before.
+    pub const ALL: [Self; 4] = [Self::E, Self::N, Self::W, Self::S];
+
+    /// The side after so many quarter turns counter-clockwise.
+    #[must_use]
+    pub fn turned(self, quarters: usize) -> Self {
+        Self::ALL[(self as usize + quarters) % 4]
+    }
+
+    /// The side across.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        self.turned(2)
+    }
+
+    /// The step to the cell beyond this side.
+    pub fn step(self) -> [i32; 2] {
+        match self {
+            Self::E => [1, 0],
+            Self::N => [0, 1],
+            Self::W => [-1, 0],
+            Self::S => [0, -1],
+        }
+    }
+
+    /// The side's letter, as plan files have it.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::E => "E",
+            Self::N => "N",
+            Self::W => "W",
+            Self::S => "S",
+        }
+    }
+}
+
 /// What a hinge joins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum HingeKind {
@@ -89,4 +126,46 @@ pub struct Plan {
     pub source: Source,
     /// The deployment schedule as it stands in the file, where it has one; `deployment` reads it.
     pub schedule: Option<serde_json::Value>,
+}
+
+impl Plan {
+    /// The number of panels.
+    pub fn panels(&self) -> usize {
+        self.target.len()
+    }
+
+    /// The number of panels in a pile.
+    pub fn height(&self) -> usize {
+        self.piles.first().map_or(0, |pile| pile.panels.len())
+    }
+
+    /// Of every panel the pile and the height in it.
+    pub fn places(&self) -> Vec<(usize, usize)> {
+        let mut places = vec![(0, 0); self.panels()];
+        for (number, pile) in self.piles.iter().enumerate() {
+            for (height, panel) in pile.panels.iter().enumerate() {
+                places[*panel] = (number, height);
+            }
+        }
+        places
+    }
+
+    /// The sides of the grid of piles, in cells.
+    pub fn grid(&self) -> [i32; 2] {
+        [0, 1].map(|axis| {
+            let cells = || self.piles.iter().map(|pile| pile.cell[axis]);
+            cells().max().unwrap_or(0) - cells().min().unwrap_or(0) + 1
+        })
+    }
+
+    /// Package-volume expansion ratio: box of the target over box of the zygote. A side of length 0 counts as one thickness.
+    pub fn expansion_ratio(&self) -> f64 {
+        let side = |axis: usize| {
+            let values = || self.target.iter().flatten().map(|corner| corner[axis]);
+            let length = values().max().unwrap_or(0) - values().min().unwrap_or(0);
+            if length == 0 { self.thickness } else { f64::from(length) }
+        };
+        let [across, along] = self.grid().map(f64::from);
+        side(0) * side(1) * side(2) / (across * along * self.height() as f64 * self.thickness)
+    }
 }

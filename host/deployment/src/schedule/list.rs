@@ -115,7 +115,7 @@ impl Lists<'_> {
         push(&mut ready, &firsts);
         let mut running: BinaryHeap<Reverse<(Millis, usize)>> = BinaryHeap::new();
         let (mut now, mut drawn, mut peak) = (Millis(0), Milliamps(0), Milliamps(0));
-        // The step whose end made this moment.
+        // A step whose end made this moment: what starts now may have waited for the current that it left.
         let mut ended = None;
         loop {
             let mut waiting = Vec::new();
@@ -132,7 +132,7 @@ impl Lists<'_> {
                 running.push(Reverse((self.steps[step].opened(), branch)));
             }
             ready.extend(waiting);
-            let Some(Reverse((time, branch))) = running.pop() else {
+            let Some(&Reverse((time, _))) = running.peek() else {
                 let Some(Ready { branch: Reverse(branch), .. }) = ready.pop() else { return Ok(peak) };
                 let hinge = self.tree.branches()[branch].hinge;
                 let left = Milliamps(self.limit.0.saturating_sub(drawn.0));
@@ -140,11 +140,17 @@ impl Lists<'_> {
                 return Err(SchedulingError::Supply { hinge, needed, limit: self.limit, left });
             };
             now = time;
-            let hinge = self.tree.branches()[branch].hinge;
-            let cost = &self.costs[hinge];
-            drawn.0 -= cost.current.0 - cost.hold_current.0.min(cost.current.0);
-            ended = self.step_of_hinge[hinge];
-            push(&mut ready, &children[branch]);
+            // All that end at this moment, before anything is started at it.
+            while let Some(&Reverse((end, branch))) = running.peek()
+                && end == now
+            {
+                running.pop();
+                let hinge = self.tree.branches()[branch].hinge;
+                let cost = &self.costs[hinge];
+                drawn.0 -= cost.current.0 - cost.hold_current.0.min(cost.current.0);
+                ended = self.step_of_hinge[hinge];
+                push(&mut ready, &children[branch]);
+            }
         }
     }
 

@@ -1,0 +1,77 @@
+//! A strip cut into equal arcs, each stacked into a pile: alternately upwards and downwards, so that every arc ends at the
+//! height at which the next one begins. Any two panels of equal height that are neighbours can be joined by a bridge.
+
+use crate::dual::Dual;
+use crate::folding_map::Facing;
+use crate::plan::Side;
+
+/// Piles before they have a cell: every pile in a frame of its own.
+#[derive(Debug, Clone)]
+pub(crate) struct Stack {
+    /// Panels of every pile from the bottom up.
+    pub(crate) piles: Vec<Vec<usize>>,
+    /// Of every panel how it lies in its pile's frame.
+    pub(crate) facing: Vec<Facing>,
+}
+
+/// A bridge that is possible: two neighbours at one height of two piles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Joint {
+    pub(crate) panels: [usize; 2],
+    pub(crate) edges: [usize; 2],
+    pub(crate) piles: [usize; 2],
+    /// The sides that the common edge is on, each in its own pile's frame.
+    pub(crate) sides: [Side; 2],
+}
+
+impl Stack {
+    /// Cuts a strip of panels, from place `offset` on, into `count` equal arcs and stacks them.
+    pub(crate) fn cut(order: &[usize], offset: usize, count: usize, dual: &Dual) -> Self {
+        let height = order.len() / count;
+        let mut facing = vec![Facing::BOTTOM; order.len()];
+        let piles = (0..count).map(|number| {
+            let start = offset + number * height;
+            let mut pile: Vec<usize> =
+                (start..start + height).map(|place| order[place % order.len()]).collect();
+            if number % 2 == 1 {
+                pile.reverse();
+            }
+            for pair in pile.windows(2) {
+                // Neighbours in a strip are neighbours in the graph, so the edges are there.
+                if let Some([edge, other]) = dual.common_edges(pair[0], pair[1]) {
+                    facing[pair[1]] = facing[pair[0]].folded(edge, other);
+                }
+            }
+            pile
+        });
+        let piles = piles.collect();
+        Self { piles, facing }
+    }
+
+    /// All bridges that are possible.
+    pub(crate) fn joints(&self, dual: &Dual) -> Vec<Joint> {
+        let mut place = vec![(0, 0); self.facing.len()];
+        for (number, pile) in self.piles.iter().enumerate() {
+            for (height, panel) in pile.iter().enumerate() {
+                place[*panel] = (number, height);
+            }
+        }
+        let mut joints = Vec::new();
+        for (a, (pile, height)) in place.iter().enumerate() {
+            for edge in 0..4 {
+                let Some(across) = dual.across(a, edge) else { continue };
+                let b = across.panel;
+                let (other_pile, other_height) = place[b];
+                if a < b && other_pile != *pile && other_height == *height {
+                    joints.push(Joint {
+                        panels: [a, b],
+                        edges: [edge, across.edge],
+                        piles: [*pile, other_pile],
+                        sides: [self.facing[a].side(edge), self.facing[b].side(across.edge)],
+                    });
+                }
+            }
+        }
+        joints
+    }
+}

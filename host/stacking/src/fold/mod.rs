@@ -1,0 +1,11 @@
+//! Plans as FOLD files.
+
+mod layout_of_lines;
+mod read;
+mod write;
+
+pub use read::{FoldError, parse, read};
+pub use write::write;
+
+/// The key of the schedule, which is kept as it stands.
+pub(crate) const SCHEDULE: &str = "zygote:schedule";

@@ -1,0 +1,75 @@
+//! Joins cycles by exchanges of two edges: where a square of the graph has opposite edges in two cycles, taking the other
+//! two edges instead makes one cycle of both. Near-linear: cycles are sets that only ever join.
+
+use super::cover::Cover;
+use super::graph::Graph;
+use std::collections::VecDeque;
+
+/// Joins cycles until no square joins any more.
+pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover) {
+    let mut cycles = Sets::new(cover);
+    let mut queue: VecDeque<usize> = (0..graph.panels()).collect();
+    let mut waiting = vec![true; graph.nodes()];
+    while let Some(node) = queue.pop_front() {
+        waiting[node] = false;
+        if let Some([a, b, c, d]) = square(graph, cover, &mut cycles, node) {
+            cover.exchange(&[(a, b), (c, d)], &[(b, c), (d, a)]);
+            cycles.join(a, c);
+            for corner in [a, b, c, d] {
+                for &near in graph.neighbours(corner).iter().chain([&corner]) {
+                    if !std::mem::replace(&mut waiting[near], true) {
+                        queue.push_back(near);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A square a-b-c-d with a-b and c-d in two cycles and the other edges free.
+fn square(graph: &Graph<'_>, cover: &Cover, cycles: &mut Sets, a: usize) -> Option<[usize; 4]> {
+    for b in cover.mates(a) {
+        for &c in graph.neighbours(b) {
+            if cycles.find(c) == cycles.find(a) {
+                continue;
+            }
+            if let Some(d) = cover.mates(c).find(|d| graph.joins(*d, a)) {
+                return Some([a, b, c, d]);
+            }
+        }
+    }
+    None
+}
+
+/// Disjoint sets of nodes.
+struct Sets {
+    parent: Vec<usize>,
+}
+
+impl Sets {
+    /// One set for every cycle of a cover.
+    fn new(cover: &Cover) -> Self {
+        let mut parent = vec![usize::MAX; cover.nodes()];
+        for start in 0..cover.nodes() {
+            if parent[start] == usize::MAX {
+                for node in cover.walk(start) {
+                    parent[node] = start;
+                }
+            }
+        }
+        Self { parent }
+    }
+
+    fn find(&mut self, mut node: usize) -> usize {
+        while self.parent[node] != node {
+            self.parent[node] = self.parent[self.parent[node]];
+            node = self.parent[node];
+        }
+        node
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parent[a] = b;
+    }
+}

@@ -1,0 +1,39 @@
+//! The graph that a cycle is sought in: the panels, and for a path the apex that neighbours them all.
+
+/// Panels by number; the apex, where there is one, has the number after the last.
+pub(super) struct Graph<'a> {
+    neighbours: &'a [Vec<usize>],
+    with_apex: bool,
+}
+
+impl<'a> Graph<'a> {
+    pub(super) fn new(neighbours: &'a [Vec<usize>], with_apex: bool) -> Self {
+        Self { neighbours, with_apex }
+    }
+
+    /// The number of panels, without the apex.
+    pub(super) fn panels(&self) -> usize {
+        self.neighbours.len()
+    }
+
+    /// The number of nodes, with the apex.
+    pub(super) fn nodes(&self) -> usize {
+        self.neighbours.len() + usize::from(self.with_apex)
+    }
+
+    /// The apex.
+    pub(super) fn apex(&self) -> Option<usize> {
+        self.with_apex.then_some(self.neighbours.len())
+    }
+
+    /// The panels beside a panel. The apex has none of its own: searches treat it apart, so as not to try all panels.
+    pub(super) fn neighbours(&self, node: usize) -> &'a [usize] {
+        self.neighbours.get(node).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether an edge joins two different nodes.
+    pub(super) fn joins(&self, u: usize, v: usize) -> bool {
+        let apex = self.apex();
+        u != v && (apex == Some(u) || apex == Some(v) || self.neighbours(u).contains(&v))
+    }
+}

@@ -1,0 +1,181 @@
+//! A cover by cycles: two mates for every node. Greedy, the node with the least choice first; what is left without mates
+//! is repaired along alternating walks.
+
+use super::cover::Cover;
+use super::graph::Graph;
+use crate::random::Random;
+use std::collections::{BTreeSet, VecDeque};
+
+/// How often a node is tried from which a repair failed; each try walks in another order.
+const REPAIRS: usize = 8;
+
+/// Finds a cover by cycles, or gives up.
+pub(super) fn find(graph: &Graph<'_>, random: &mut Random) -> Option<Cover> {
+    let mut cover = greedy(graph, random);
+    let mut search = Search::new(graph.nodes());
+    for node in 0..graph.panels() {
+        let mut tries = 0;
+        while cover.lacks(node) > 0 {
+            if !search.repair(graph, &mut cover, node, random) {
+                tries += 1;
+                if tries == REPAIRS {
+                    return None;
+                }
+            }
+        }
+    }
+    if let Some(apex) = graph.apex()
+        && cover.lacks(apex) == 2
+    {
+        // All panels have mates among themselves: the apex goes between any two.
+        let mate = cover.mates(0).next()?;
+        cover.exchange(&[(0, mate)], &[(0, apex), (apex, mate)]);
+    }
+    (0..graph.nodes()).all(|node| cover.lacks(node) == 0).then_some(cover)
+}
+
+/// Links nodes to mates, always at the node with the fewest edges to spare.
+fn greedy(graph: &Graph<'_>, random: &mut Random) -> Cover {
+    let mut cover = Cover::new(graph.nodes());
+    let mut free: Vec<usize> = (0..graph.panels()).map(|node| graph.neighbours(node).len()).collect();
+    let lot: Vec<u64> = free.iter().map(|_| random.next()).collect();
+    // Choice of a node: edges that can still be taken, less those that it needs.
+    let choice =
+        |free: &[usize], cover: &Cover, node: usize| (free[node] + 2 - cover.lacks(node), lot[node], node);
+    let mut queue: BTreeSet<(usize, u64, usize)> =
+        (0..free.len()).map(|node| choice(&free, &cover, node)).collect();
+    while let Some((_, _, node)) = queue.pop_first() {
+        while cover.lacks(node) > 0 {
+            let usable = |other: &&usize| cover.lacks(**other) > 0 && !cover.has(node, **other);
+            let best = graph.neighbours(node).iter().filter(usable).min_by_key(|other| {
+                let (spare, _, _) = choice(&free, &cover, **other);
+                (spare, lot[**other] ^ lot[node])
+            });
+            let Some(&mate) = best else { break };
+            queue.remove(&choice(&free, &cover, mate));
+            cover.link(node, mate);
+            free[node] = free[node].saturating_sub(1);
+            free[mate] = free[mate].saturating_sub(1);
+            if cover.lacks(mate) > 0 {
+                queue.insert(choice(&free, &cover, mate));
+            } else {
+                forget(graph, &cover, mate, node, &mut free, &mut queue, &choice);
+            }
+        }
+        forget(graph, &cover, node, node, &mut free, &mut queue, &choice);
+    }
+    cover
+}
+
+/// A node takes no more mates: its neighbours have one edge less to choose from.
+fn forget(
+    graph: &Graph<'_>,
+    cover: &Cover,
+    full: usize,
+    busy: usize,
+    free: &mut [usize],
+    queue: &mut BTreeSet<(usize, u64, usize)>,
+    choice: &impl Fn(&[usize], &Cover, usize) -> (usize, u64, usize),
+) {
+    for &other in graph.neighbours(full) {
+        if other != busy && !cover.has(full, other) {
+            let waiting = queue.remove(&choice(free, cover, other));
+            free[other] = free[other].saturating_sub(1);
+            if waiting {
+                queue.insert(choice(free, cover, other));
+            }
+        }
+    }
+}
+
+/// Where an alternating walk stands: at a node, about to add an edge or about to remove one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Next {
+    Adds,
+    Removes,
+}
+
+/// Breadth-first search for an alternating walk from a node that lacks a mate to another one.
+struct Search {
+    /// For both states of every node the node that it was reached from, and the round of the search that did.
+    reached: [Vec<(usize, usize)>; 2],
+    round: usize,
+}
+
+impl Search {
+    fn new(nodes: usize) -> Self {
+        Self { reached: [vec![(0, 0); nodes], vec![(0, 0); nodes]], round: 0 }
+    }
+
+    fn mark(&mut self, state: Next, node: usize, from: usize) -> bool {
+        let place = &mut self.reached[state as usize][node];
+        let fresh = place.1 != self.round;
+        if fresh {
+            *place = (from, self.round);
+        }
+        fresh
+    }
+
+    /// Gives `start` one more mate without taking one from anybody but along the walk. False where no walk was found.
+    fn repair(&mut self, graph: &Graph<'_>, cover: &mut Cover, start: usize, random: &mut Random) -> bool {
+        self.round += 1;
+        self.mark(Next::Adds, start, start);
+        let mut queue = VecDeque::from([(start, Next::Adds)]);
+        while let Some((node, next)) = queue.pop_front() {
+            match next {
+                Next::Adds => {
+                    let mut others = graph.neighbours(node).to_vec();
+                    random.shuffle(&mut others);
+                    others.extend(graph.apex().filter(|apex| *apex != node));
+                    for other in others {
+                        if cover.has(node, other) || !self.mark(Next::Removes, other, node) {
+                            continue;
+                        }
+                        let lacks = cover.lacks(other);
+                        if lacks > usize::from(other == start) && self.apply(cover, start, other) {
+                            return true;
+                        }
+                        if lacks == 0 {
+                            queue.push_back((other, Next::Removes));
+                        }
+                    }
+                }
+                Next::Removes => {
+                    for mate in cover.mates(node) {
+                        if self.mark(Next::Adds, mate, node) {
+                            queue.push_back((mate, Next::Adds));
+                        }
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Follows the walk back from its end and applies it, unless it takes an edge twice.
+    fn apply(&self, cover: &mut Cover, start: usize, end: usize) -> bool {
+        let (mut added, mut removed) = (Vec::new(), Vec::new());
+        let (mut node, mut state) = (end, Next::Removes);
+        while (node, state) != (start, Next::Adds) {
+            let (from, _) = self.reached[state as usize][node];
+            let edge = (from.min(node), from.max(node));
+            state = match state {
+                Next::Removes => {
+                    added.push(edge);
+                    Next::Adds
+                }
+                Next::Adds => {
+                    removed.push(edge);
+                    Next::Removes
+                }
+            };
+            node = from;
+        }
+        let distinct = |edges: &[(usize, usize)]| edges.iter().collect::<BTreeSet<_>>().len() == edges.len();
+        let sound = distinct(&added) && distinct(&removed);
+        if sound {
+            cover.exchange(&removed, &added);
+        }
+        sound
+    }
+}

@@ -1,0 +1,171 @@
+//! What can be wrong with a model file.
+
+use crate::surface::SurfaceError;
+
+/// A model file that can't be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}: {problem}")]
+pub struct ModelError {
+    /// The file.
+    pub file: String,
+    /// What is wrong with it; part of the message, so no cause of its own.
+    pub problem: ModelProblem,
+}
+
+/// What is wrong with a model file; lines are counted from 1.
+#[derive(Debug, thiserror::Error)]
+pub enum ModelProblem {
+    /// The extension names no format that is known.
+    #[error(
+        "unknown format '.{extension}', expected .txt (voxel text), .obj (quad mesh) or .stl (closed mesh)"
+    )]
+    UnknownFormat {
+        /// What was found.
+        extension: String,
+    },
+    /// A triangle mesh without a voxel size.
+    #[error("a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh")]
+    VoxelSizeMissing,
+    /// A voxel size for a file that is on the lattice already.
+    #[error("a voxel size is for .stl files only: this format is on the lattice already")]
+    VoxelSizeUnused,
+    /// A voxel size that is no length.
+    #[error("voxel size {size}, expected a length above 0")]
+    VoxelSize {
+        /// What was given.
+        size: f64,
+    },
+    /// The system can't read the file.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[from] std::io::Error),
+    /// Bytes that are no text.
+    #[error("line {line}: not UTF-8, expected a text file")]
+    NotText {
+        /// The line.
+        line: usize,
+    },
+    /// Nothing in it.
+    #[error("empty: expected {expected}")]
+    Empty {
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A character that voxel text doesn't have.
+    #[error("line {line}, column {column}: found {found:?}, expected '#' (solid) or '.' (empty)")]
+    BadCharacter {
+        /// The line.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What was found.
+        found: char,
+    },
+    /// A row of another length than the first.
+    #[error("line {line}: a row of {found} characters, expected {expected} as in the first row")]
+    RaggedRow {
+        /// The line.
+        line: usize,
+        /// Length of this row.
+        found: usize,
+        /// Length of the first row.
+        expected: usize,
+    },
+    /// A slice with another number of rows than the first.
+    #[error("line {line}: slice {slice} ends after {found} rows, expected {expected} as in slice 0")]
+    RaggedSlice {
+        /// Last line of the slice.
+        line: usize,
+        /// The slice, from 0.
+        slice: usize,
+        /// Rows of this slice.
+        found: usize,
+        /// Rows of the first slice.
+        expected: usize,
+    },
+    /// No voxel is solid.
+    #[error("no voxel is solid, expected at least one '#'")]
+    NoSolidVoxel,
+    /// More voxels than the lattice has room for.
+    #[error("{found} voxels in the box, expected at most {limit}")]
+    TooManyVoxels {
+        /// Voxels in the box.
+        found: u128,
+        /// The limit.
+        limit: u128,
+    },
+    /// A line of an OBJ file that can't be read.
+    #[error("line {line}: {found:?}, expected {expected}")]
+    BadLine {
+        /// The line.
+        line: usize,
+        /// What was found.
+        found: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A vertex between the lattice points.
+    #[error(
+        "line {line}: vertex coordinate {found}, expected a whole number: vertices lie on the integer lattice"
+    )]
+    OffLattice {
+        /// The line.
+        line: usize,
+        /// The coordinate.
+        found: String,
+    },
+    /// A triangle, or another polygon.
+    #[error("line {line}: a face with {found} corners, expected 4: quads only")]
+    NotAQuad {
+        /// The line.
+        line: usize,
+        /// Number of corners.
+        found: usize,
+    },
+    /// A corner that is no vertex.
+    #[error("line {line}: vertex number {found:?}, expected a vertex defined above: 1 to {vertices}")]
+    NoSuchVertex {
+        /// The line.
+        line: usize,
+        /// What was found.
+        found: String,
+        /// Vertices so far.
+        vertices: usize,
+    },
+    /// An STL file that can't be read.
+    #[error("not an STL file: {0}")]
+    NotStl(#[source] std::io::Error),
+    /// A vertex that is nowhere.
+    #[error("triangle {triangle}: a coordinate that is no finite number")]
+    NotFinite {
+        /// The triangle, from 0.
+        triangle: usize,
+    },
+    /// A mesh with holes, or with triangles turned inside out.
+    #[error(
+        "the mesh is not closed: {open} open edges, {unlike} edges between triangles of unlike orientation; \
+         the first from {from} to {to}; expected every edge to be passed once in each direction"
+    )]
+    NotClosed {
+        /// Edges that belong to one triangle only.
+        open: usize,
+        /// Edges whose triangles don't run against each other.
+        unlike: usize,
+        /// One end of the first such edge.
+        from: String,
+        /// The other end.
+        to: String,
+    },
+    /// No voxel's centre is inside.
+    #[error(
+        "no voxel of size {size} has its centre inside the mesh, whose box is {bounds}: expected a smaller size"
+    )]
+    TooCoarse {
+        /// The voxel size.
+        size: f64,
+        /// The box of the mesh.
+        bounds: String,
+    },
+    /// The squares make no surface that panels can build.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+}

@@ -1,0 +1,172 @@
+//! Voxels of a closed triangle mesh: a voxel is solid when the mesh winds round its centre.
+//!
+//! Along every row of centres the crossings with the mesh are counted with their direction. Whether a row crosses a
+//! triangle is decided edge by edge, for both triangles at an edge by the same arithmetic on the same numbers: so no row
+//! slips between two triangles, wherever it runs, and shells that overlap make one solid.
+
+use super::ModelProblem;
+use super::stl::Corner;
+use super::voxel_text::VOXEL_LIMIT;
+use crate::voxels::Voxels;
+
+/// The rows of centres: all numbers in units of voxels, centres at whole numbers and a half.
+struct Rows {
+    sides: [usize; 3],
+    /// For every voxel, by how much the winding number rises from the voxel before it in its row.
+    rise: Vec<i32>,
+}
+
+/// Fills the mesh with voxels of a given edge, the first one in the least corner of the mesh's box.
+///
+/// # Errors
+/// A size that is no length, more voxels than fit, or no centre inside.
+pub(super) fn fill(triangles: &[[Corner; 3]], size: f64) -> Result<Voxels, ModelProblem> {
+    if !(size.is_finite() && size > 0.0) {
+        return Err(ModelProblem::VoxelSize { size });
+    }
+    let all = |axis: usize| triangles.iter().flatten().map(move |corner| corner[axis]);
+    let least = [0, 1, 2].map(|axis| all(axis).fold(f64::INFINITY, f64::min));
+    let extent = [0, 1, 2].map(|axis| all(axis).fold(f64::NEG_INFINITY, f64::max) - least[axis]);
+    let mut rows = Rows::new(extent.map(|length| length / size))?;
+    for corners in triangles {
+        rows.cross(corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - least[axis]) / size)));
+    }
+    let voxels = rows.voxels();
+    if voxels.any() {
+        Ok(voxels)
+    } else {
+        let [x, y, z] = extent;
+        Err(ModelProblem::TooCoarse { size, bounds: format!("{x} x {y} x {z}") })
+    }
+}
+
+/// How many whole numbers and a half lie below a length, so how many centres come before it; at most `limit`.
+fn centres_before(length: f64, limit: usize) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the limit first")]
+    let count = (length - 0.5).ceil().clamp(0.0, limit as f64) as usize;
+    count
+}
+
+impl Rows {
+    fn new(extent: [f64; 3]) -> Result<Self, ModelProblem> {
+        let sides = extent.map(|length| centres_before(length.ceil().max(1.0), VOXEL_LIMIT + 1));
+        let found = sides.iter().map(|side| *side as u128).product();
+        if found > VOXEL_LIMIT as u128 {
+            return Err(ModelProblem::TooManyVoxels { found, limit: VOXEL_LIMIT as u128 });
+        }
+        Ok(Self { sides, rise: vec![0; sides.iter().product()] })
+    }
+
+    /// Counts the crossings of one triangle with all rows.
+    fn cross(&mut self, corners: [Corner; 3]) {
+        let range = |axis: usize| {
+            let low = corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+            let high = corners.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
+            (low, high)
+        };
+        let (low_x, high_x) = range(0);
+        let (low_y, high_y) = range(1);
+        let (low_z, high_z) = range(2);
+        let [width, depth, height] = self.sides;
+        for k in centres_before(low_z, height)..centres_before(high_z, height) {
+            for j in centres_before(low_y, depth)..centres_before(high_y, depth) {
+                let (y, z) = (j as f64 + 0.5, k as f64 + 0.5);
+                let winding: i32 = (0..3).map(|i| passes(&corners[i], &corners[(i + 1) % 3], y, z)).sum();
+                if winding != 0 {
+                    let x = crossing_x(&corners, y, z).clamp(low_x, high_x);
+                    let i = centres_before(x, width);
+                    if i < width {
+                        self.rise[(k * depth + j) * width + i] += winding;
+                    }
+                }
+            }
+        }
+    }
+
+    fn voxels(self) -> Voxels {
+        let width = self.sides[0];
+        let solid = self.rise.chunks(width).flat_map(|row| {
+            row.iter().scan(0, |winding, rise| {
+                *winding += rise;
+                Some(*winding != 0)
+            })
+        });
+        let solid = solid.collect();
+        let sides = self.sides.map(|side| i32::try_from(side).unwrap_or(i32::MAX));
+        Voxels::new(sides, solid)
+    }
+}
+
+/// Whether an edge passes the ray from (y, z) towards +y: 1 upwards in z, -1 downwards, else 0.
+fn passes(from: &Corner, to: &Corner, y: f64, z: f64) -> i32 {
+    let upwards = match (from[2] <= z, to[2] <= z) {
+        (true, false) => true,
+        (false, true) => false,
+        (true, true) | (false, false) => return 0,
+    };
+    // Always from the lower end to the upper one: the neighbour, which passes the edge the other way, computes the same.
+    let (low, high) = if upwards { (from, to) } else { (to, from) };
+    let beyond = low[1] + (z - low[2]) / (high[2] - low[2]) * (high[1] - low[1]) > y;
+    match (beyond, upwards) {
+        (true, true) => 1,
+        (true, false) => -1,
+        (false, _) => 0,
+    }
+}
+
+/// Where the row at (y, z) meets the plane of a triangle.
+fn crossing_x(corners: &[Corner; 3], y: f64, z: f64) -> f64 {
+    let [a, b, c] = corners;
+    let u = [0, 1, 2].map(|axis| b[axis] - a[axis]);
+    let v = [0, 1, 2].map(|axis| c[axis] - a[axis]);
+    let area = u[1] * v[2] - u[2] * v[1];
+    let (dy, dz) = (y - a[1], z - a[2]);
+    let (s, t) = ((dy * v[2] - dz * v[1]) / area, (u[1] * dz - u[2] * dy) / area);
+    let x = a[0] + s * u[0] + t * v[0];
+    // A triangle seen on edge has no area; any of its own x will do, and its neighbours make up for it.
+    if x.is_finite() { x } else { a[0] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box with its corners at `low` and `high`, outer side out, as triangles.
+    fn cuboid(low: Corner, high: Corner) -> Vec<[Corner; 3]> {
+        let unit = Voxels::new([1, 1, 1], vec![true]).boundary();
+        let corner = |p: [i32; 3]| [0, 1, 2].map(|axis| if p[axis] == 0 { low[axis] } else { high[axis] });
+        let split = |[a, b, c, d]: [[i32; 3]; 4]| [[a, b, c], [a, c, d]];
+        unit.into_iter().flat_map(split).map(|triangle| triangle.map(corner)).collect()
+    }
+
+    #[test]
+    fn a_box_fills_with_as_many_voxels_as_it_is_large() {
+        let voxels = fill(&cuboid([-1.0, 2.0, 0.0], [5.0, 6.0, 2.0]), 2.0).unwrap();
+        assert_eq!(voxels.boundary().len(), 2 * (3 * 2 + 2 + 3));
+    }
+
+    #[test]
+    fn rows_that_run_along_diagonals_and_corners_neither_leak_nor_count_twice() {
+        // Voxels of size 2 have their centres on the corners, edges and diagonals of smaller boxes.
+        let mut mesh = cuboid([0.0; 3], [8.0; 3]);
+        mesh.extend(cuboid([1.0; 3], [7.0; 3]));
+        let voxels = fill(&mesh, 2.0).unwrap();
+        assert_eq!(voxels.boundary().len(), 6 * 16);
+    }
+
+    #[test]
+    fn a_cavity_whose_shell_is_turned_inwards_stays_empty() {
+        let mut mesh = cuboid([0.0; 3], [3.0; 3]);
+        mesh.extend(cuboid([1.0; 3], [2.0; 3]).into_iter().map(|[a, b, c]| [a, c, b]));
+        assert_eq!(fill(&mesh, 1.0).unwrap().boundary().len(), 54 + 6);
+    }
+
+    #[test]
+    fn sizes_that_are_no_lengths_or_too_coarse_or_too_fine_are_refused() {
+        let mesh = cuboid([0.0; 3], [1.0; 3]);
+        assert!(matches!(fill(&mesh, 0.0), Err(ModelProblem::VoxelSize { .. })));
+        assert!(matches!(fill(&mesh, f64::NAN), Err(ModelProblem::VoxelSize { .. })));
+        assert!(matches!(fill(&mesh, 3.0), Err(ModelProblem::TooCoarse { .. })));
+        assert!(matches!(fill(&mesh, 1e-9), Err(ModelProblem::TooManyVoxels { .. })));
+    }
+}
