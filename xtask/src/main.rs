@@ -53,5 +53,8 @@ fn main() -> ExitCode {
 
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
-    format!("usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  test, ci  everything below\n{}", parts.join("\n"))
+    format!(
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  test, ci  everything below\n{}",
+        parts.join("\n")
+    )
 }

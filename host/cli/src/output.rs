@@ -2,8 +2,9 @@
 
 use crate::failure::{Failure, OrFail};
 use anyhow::Context;
+use std::io::Write;
 use std::path::Path;
-use std::{fs, process};
+use std::{fs, io, process};
 
 /// Writes a file beside its place and then moves it there, so that no reader ever sees half of it.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
@@ -19,7 +20,7 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Prints a line for the user.
-#[expect(clippy::print_stdout, reason = "the one place where results reach the user")]
 pub(crate) fn say(line: impl std::fmt::Display) {
-    println!("{line}");
+    // A reader that has gone (`| head`) wants no more lines; the work and the exit code stand without them.
+    writeln!(io::stdout(), "{line}").ok();
 }

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::{env, fs};
 
 /// A folder that is empty at first and gone at the end.
-pub(crate) struct Workplace {
+pub(crate) struct Scratch {
     folder: PathBuf,
 }
 
@@ -18,7 +18,7 @@ pub(crate) struct Run {
     pub(crate) errors: String,
 }
 
-impl Workplace {
+impl Scratch {
     pub(crate) fn new(name: &str) -> Self {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
         fs::remove_dir_all(&folder).ok();
@@ -53,7 +53,7 @@ impl Workplace {
     }
 }
 
-impl Drop for Workplace {
+impl Drop for Scratch {
     fn drop(&mut self) {
         fs::remove_dir_all(&self.folder).ok();
     }
