@@ -21,7 +21,7 @@ impl Camera {
     }
 
     /// The unit vector from the scene to the eye.
-    pub(super) fn to_eye(&self) -> DVec3 {
+    pub(super) fn to_eye(self) -> DVec3 {
         self.to_eye
     }
 
