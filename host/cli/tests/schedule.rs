@@ -1,4 +1,5 @@
 //! `zygote schedule` and `zygote picture` as a user types them.
+#![expect(clippy::expect_used, reason = "a test may fail by panicking, in its helpers too")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
