@@ -2,9 +2,42 @@
 //!
 //! `no_std`, no allocation, no I/O and no clock: both ends run the same state machine on bytes and times that
 //! are handed in. The bytes are described for people in `docs/src/protocol.md`.
+//!
+//! | frame | from | carries | delivered |
+//! |---|---|---|---|
+//! | Hello, HelloReply | host, MCU | [`Hello`], [`HelloReply`] | repeated by the host until answered |
+//! | Data | host | [`Request`] | in order, exactly once |
+//! | Data | MCU | [`Report`]: [`Response`] or [`Event`] | in order, exactly once |
+//! | Urgent | host, MCU | [`Urgent`], [`Fault`] | ahead of everything, at least until acknowledged |
+//! | Telemetry | MCU | [`Telemetry`] | perhaps; the newest wins |
+//! | Ack, Nack | both | nothing | also the keep-alive |
+//! | Reset | MCU | nothing | "I know no such session" |
 #![no_std]
 #![warn(clippy::indexing_slicing, clippy::as_conversions)]
 
+mod codes;
+mod command;
+mod crc;
+mod frame;
+mod hello;
+mod limits;
+mod link;
+mod report;
+pub mod schema;
+mod step;
 mod units;
 
+pub use codes::{FaultCode, RefusalCode};
+pub use command::{
+    Command, PROGRESS_PER_REPLY, Refusal, Reply, Request, Response, RigId, STEPS_PER_COMMAND, State, Status,
+    StepState,
+};
+pub use frame::{Decoder, FrameError, FrameKind, Header, MAX_ENCODED, MAX_PAYLOAD, decode_payload, encode};
+pub use hello::{
+    Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, peek_versions,
+};
+pub use limits::{LimitName, Limits};
+pub use link::{Link, LinkCounters, Received, SendError, WINDOW};
+pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};
+pub use step::{Action, Heat, MAX_AFTER, Release, Step, Turn, program_crc};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis, Millivolts};

@@ -1,1 +1,57 @@
-fn main() {}
+//! What CI runs and a developer runs: `cargo xtask VERB`. One file a verb; `test` (or `ci`) is all of them.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to its terminal")]
+
+mod arrows;
+mod demo;
+mod docs;
+mod firmware;
+mod hil;
+mod lint;
+mod parts;
+mod sections;
+mod tests;
+mod tools;
+
+use parts::Part;
+use std::process::ExitCode;
+
+/// The parts of `cargo xtask test`, cheapest first; each is a verb of its own.
+const PARTS: &[Part] = &[
+    Part { verb: "lint", about: "formatting and clippy", run: lint::run },
+    Part { verb: "arrows", about: "which crate may use which", run: arrows::run },
+    Part { verb: "unit", about: "unit and integration tests (nextest)", run: tests::unit },
+    Part { verb: "doctest", about: "examples in the documentation", run: tests::doc },
+    Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
+    Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: hil::run },
+    Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [verb] = arguments.as_slice() else {
+        eprintln!("expected one verb, got {}\n{}", arguments.len(), usage());
+        return ExitCode::from(2);
+    };
+    let result = match (verb.as_str(), PARTS.iter().find(|part| part.verb == verb)) {
+        ("test" | "ci", _) => parts::run_all(PARTS),
+        ("demo", _) => demo::run(),
+        (_, Some(part)) => (part.run)(),
+        (_, None) => {
+            eprintln!("unknown verb `{verb}`\n{}", usage());
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // Without the backtrace that `Debug` may add.
+        Err(error) => {
+            eprintln!("{error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn usage() -> String {
+    let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
+    format!("usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  test, ci  everything below\n{}", parts.join("\n"))
+}

@@ -1,11 +1,17 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
 mod check;
+mod deploy;
 mod failure;
+mod identity;
+mod input;
+mod interrupt;
 mod output;
 mod picture;
 mod plan;
 mod schedule;
+mod sim;
+mod sim_rig;
 mod verb;
 
 use clap::Parser;

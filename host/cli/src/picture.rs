@@ -1,8 +1,8 @@
 //! `zygote picture`: a plan as an SVG picture.
 
 use crate::failure::{Failure, OrFail};
+use crate::input;
 use crate::output::{say, write_file};
-use crate::schedule::read_plan;
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             arguments.view
         )));
     }
-    let plan = read_plan(&arguments.plan)?;
+    let plan = input::plan(&arguments.plan)?;
     let place = || format!("{}: cannot be drawn", arguments.plan.display());
     let svg = match arguments.view {
         View::Target => picture::target(&plan),

@@ -1,13 +1,13 @@
 //! `zygote schedule`: a plan and a rig into a schedule, written into the plan or beside it.
 
 use crate::failure::{Failure, OrFail};
+use crate::input;
 use crate::output::{say, write_file};
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use clap::Args;
-use std::fs;
-use std::path::{Path, PathBuf};
-use zygote_deployment::{Kind, Millis, Rig, Schedule};
-use zygote_stacking::{Plan, fold};
+use std::path::PathBuf;
+use zygote_deployment::{Kind, Millis, Schedule};
+use zygote_stacking::fold;
 
 /// Arguments of `zygote schedule`.
 #[derive(Args)]
@@ -35,8 +35,8 @@ fn at_least_1(text: &str) -> Result<usize, String> {
 
 /// Schedules, verifies what came out, and writes it.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let rig = read_rig(&arguments.rig)?;
-    let mut plan = read_plan(&arguments.plan)?;
+    let rig = input::rig(&arguments.rig)?;
+    let mut plan = input::plan(&arguments.plan)?;
     let schedule = Schedule::plan(&plan, &rig, arguments.parallel)
         .with_context(|| format!("{}: no schedule on this rig", arguments.plan.display()))
         .or_bad_input()?;
@@ -51,20 +51,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     say(format_args!("{}: {}", written.display(), summary(&schedule)));
     Ok(())
-}
-
-/// Reads a rig file.
-pub(crate) fn read_rig(path: &Path) -> Result<Rig, Failure> {
-    let name = path.display().to_string();
-    let text = fs::read_to_string(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
-    Rig::read(&name, &text).or_bad_input()
-}
-
-/// Reads a plan that keeps all rules.
-pub(crate) fn read_plan(path: &Path) -> Result<Plan, Failure> {
-    let name = path.display();
-    let bytes = fs::read(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
-    fold::read(&bytes).map_err(|error| Failure::BadInput(anyhow!(error).context(format!("{name}: no plan"))))
 }
 
 /// What a schedule amounts to, in one line.

@@ -1,7 +1,7 @@
 //! The table of verbs.
 
 use crate::failure::Failure;
-use crate::{check, picture, plan, schedule};
+use crate::{check, deploy, picture, plan, schedule, sim};
 use clap::Subcommand;
 
 /// A verb and its arguments.
@@ -15,6 +15,10 @@ pub(crate) enum Verb {
     Schedule(schedule::Arguments),
     /// Draw a plan: stack, shape, or the way between them
     Picture(picture::Arguments),
+    /// Run a plan's schedule on a board or on the simulator
+    Deploy(deploy::Arguments),
+    /// Serve a simulated board on a pseudo-terminal
+    Sim(sim::Arguments),
 }
 
 impl Verb {
@@ -23,6 +27,8 @@ impl Verb {
         match self {
             Self::Plan(arguments) => plan::run(&arguments),
             Self::Check(arguments) => check::run(&arguments),
+            Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Sim(arguments) => sim::run(&arguments),
             Self::Schedule(arguments) => schedule::run(&arguments),
             Self::Picture(arguments) => picture::run(&arguments),
         }

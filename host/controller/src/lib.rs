@@ -1,1 +1,27 @@
-//! x
+//! Talks to an MCU: opens a session, uploads a program, watches its run, stops it, and tells what happened.
+//!
+//! ```text
+//!   Schedule --program--> steps --Session--> link --Transport--> MCU (serial port, simulator)
+//!                                   |
+//!                                   +--> deploy --> Progress (for a display), EventLog, RunReport
+//! ```
+//!
+//! The MCU executes a run by itself; what stands here carries the program there and brings the news back.
+
+mod deploy;
+mod estimate;
+mod event_log;
+mod program;
+mod report;
+mod serial;
+mod session;
+mod transport;
+
+pub use deploy::{DeployError, Deployment, Progress, deploy};
+pub use estimate::MotionState;
+pub use event_log::{EventLog, Record};
+pub use program::{ProgramError, limits, program};
+pub use report::{HingeOutcome, HingeReport, Outcome, RunReport};
+pub use serial::{SerialError, SerialTransport};
+pub use session::{ConnectError, Notice, RequestError, Session, SessionError};
+pub use transport::Transport;

@@ -1,0 +1,62 @@
+//! The core with its pins: the one thing that the tasks share. Each call goes to the core and then applies
+//! what it decided, so that no decision waits for another task.
+
+use crate::{
+    actuators::Actuators,
+    pins::{HEATERS, SERVOS, SPRINGS, STEPS},
+};
+use core::cell::RefCell;
+use embassy_sync::{
+    blocking_mutex::{Mutex, raw::NoopRawMutex},
+    signal::Signal,
+};
+use embassy_time::Instant;
+use zygote_core::{Core, Inputs};
+use zygote_protocol::Micros;
+
+/// The core of this board.
+pub(crate) type BoardCore = Core<HEATERS, SERVOS, SPRINGS, STEPS>;
+
+/// The core and the actuators, for tasks of one executor.
+pub(crate) struct Shell {
+    inner: Mutex<NoopRawMutex, RefCell<(BoardCore, Actuators)>>,
+    /// Set when the core may have something to say to the host.
+    pub(crate) speak: Signal<NoopRawMutex, ()>,
+}
+
+impl Shell {
+    pub(crate) const fn new(core: BoardCore, actuators: Actuators) -> Self {
+        Self { inner: Mutex::new(RefCell::new((core, actuators))), speak: Signal::new() }
+    }
+
+    /// Bytes from the host.
+    pub(crate) fn receive(&self, bytes: &[u8]) {
+        self.call(|core| core.handle_bytes(now(), bytes));
+        self.speak.signal(());
+    }
+
+    /// Bytes for the host; their number, 0 when there is nothing to say.
+    pub(crate) fn transmit(&self, out: &mut [u8]) -> usize {
+        self.call(|core| core.poll_transmit(now(), out))
+    }
+
+    /// One control tick.
+    pub(crate) fn tick(&self, inputs: &Inputs<'_>) {
+        self.call(|core| core.tick(now(), inputs));
+        self.speak.signal(());
+    }
+
+    fn call<R>(&self, verb: impl FnOnce(&mut BoardCore) -> R) -> R {
+        self.inner.lock(|inner| {
+            let (core, actuators) = &mut *inner.borrow_mut();
+            let result = verb(core);
+            actuators.apply(core.outputs());
+            result
+        })
+    }
+}
+
+/// Time since the start.
+pub(crate) fn now() -> Micros {
+    Micros(Instant::now().as_micros())
+}

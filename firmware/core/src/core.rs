@@ -1,0 +1,343 @@
+//! The whole MCU in one value: bytes, readings and time in, bytes and actuator commands out.
+//!
+//! ```text
+//!            Commit          Arm            Start            every step done
+//!   Idle ------------> Loaded ----> Armed ---------> Running ----------------> Finished
+//!    ^                   ^           |  Disarm          | Disarm                  |
+//!    |                   +-----------+------------------+      Arm, Upload <------+
+//!    | Clear
+//!   Safe <---- any fault, stop, lost link or new session while Armed or Running; a stop from any state
+//! ```
+//!
+//! Only Armed and Running energise anything (S2): `outputs` is off in every other state.
+
+use crate::config::Config;
+use crate::event_queue::EventQueue;
+use crate::handlers;
+use crate::io::{Inputs, Outputs};
+use crate::mode::Mode;
+use crate::program::{Program, index};
+use crate::sequencer::{Instant, Sequencer};
+use crate::supply_guard::SupplyGuard;
+use crate::thermal_guard::ThermalGuard;
+use crate::trip::Trip;
+use zygote_protocol::{
+    Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
+    Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, Received, Report, Request,
+    Response, State, StepState, Telemetry, Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, schema,
+};
+
+/// Time between two telemetry messages.
+const TELEMETRY_EVERY: Millis = Millis(100);
+/// Link room that events leave to responses.
+const ROOM_FOR_RESPONSES: usize = 2;
+
+/// The firmware of a board with so many heaters, servos and springs, and room for a program of so many steps.
+#[derive(Debug)]
+pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEPS: usize> {
+    pub(crate) config: Config,
+    pub(crate) mode: Mode,
+    pub(crate) program: Program<STEPS>,
+    pub(crate) sequencer: Sequencer<STEPS>,
+    pub(crate) guards: [ThermalGuard; HEATERS],
+    pub(crate) stop_pressed: bool,
+    pub(crate) outputs: Outputs<HEATERS, SERVOS, SPRINGS>,
+    link: Link,
+    events: EventQueue,
+    supply_guard: SupplyGuard,
+    telemetry_due: Micros,
+    supply: Millivolts,
+    current: Milliamps,
+}
+
+impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEPS: usize>
+    Core<HEATERS, SERVOS, SPRINGS, STEPS>
+{
+    /// A core in state Idle, everything off.
+    pub const fn new(config: Config, now: Micros) -> Self {
+        Self {
+            config,
+            mode: Mode::Idle,
+            program: Program::new(),
+            sequencer: Sequencer::new(),
+            guards: [ThermalGuard::NEW; HEATERS],
+            stop_pressed: false,
+            outputs: Outputs::OFF,
+            link: Link::new(now),
+            events: EventQueue::new(),
+            supply_guard: SupplyGuard::new(),
+            telemetry_due: now,
+            supply: Millivolts(0),
+            current: Milliamps(0),
+        }
+    }
+
+    /// What every actuator is to do now. To be applied after each call of the other functions.
+    pub fn outputs(&self) -> &Outputs<HEATERS, SERVOS, SPRINGS> {
+        &self.outputs
+    }
+
+    /// What the MCU is doing.
+    pub fn state(&self) -> State {
+        self.mode.state()
+    }
+
+    /// Why the MCU is in the safe state.
+    pub fn fault(&self) -> Option<Fault> {
+        self.mode.fault()
+    }
+
+    /// The state of every step of the program.
+    pub fn step_states(&self) -> impl Iterator<Item = StepState> {
+        self.sequencer.states()
+    }
+
+    /// What the link has seen.
+    pub fn link_counters(&self) -> LinkCounters {
+        self.link.counters()
+    }
+
+    /// The channels that can be used: fitted, and known to this core.
+    pub(crate) fn channels(&self) -> Channels {
+        let Channels { heaters, servos, springs } = self.config.channels;
+        Channels {
+            heaters: heaters.min(index(HEATERS)),
+            servos: servos.min(index(SERVOS)),
+            springs: springs.min(index(SPRINGS)),
+        }
+    }
+
+    /// Takes bytes from the host.
+    pub fn handle_bytes(&mut self, now: Micros, mut bytes: &[u8]) {
+        loop {
+            let accept = self.link.room() > 0;
+            let Some(received) = self.link.receive(now, &mut bytes, accept) else { return };
+            match received {
+                Received::Hello(session, payload) => {
+                    let hello = decode_payload::<Hello>(payload);
+                    self.greet(now, session, hello.as_ref());
+                }
+                Received::Message(payload) => {
+                    let request = decode_payload::<Request>(payload);
+                    self.answer(now, request);
+                }
+                Received::Urgent(payload) => {
+                    // What can't be read but is urgent is taken for a stop: that is the safe side.
+                    let Urgent::Stop = decode_payload(payload).unwrap_or(Urgent::Stop);
+                    self.trip(now, Trip::new(FaultCode::Stopped, 0, 0));
+                }
+                // These are sent by MCUs only.
+                Received::HelloReply(..) | Received::Telemetry(_) | Received::Reset => {}
+            }
+        }
+    }
+
+    /// Answers a hello. Another session than the open one takes over, and nothing stays energised for it.
+    fn greet(&mut self, now: Micros, session: u32, hello: Option<&Hello>) {
+        let Some(hello) = hello else { return };
+        let speaks_ours =
+            hello.min <= VERSION && hello.current >= VERSION_MIN && hello.schema == schema::hash();
+        if speaks_ours && self.link.session() != Some(session) {
+            if self.mode.is_energised() {
+                self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
+            }
+            self.events.clear();
+            self.link.open(session, now);
+        }
+        let reply = HelloReply {
+            min: VERSION_MIN,
+            current: VERSION,
+            schema: schema::hash(),
+            identity: self.config.identity.clone(),
+            ceiling: self.config.ceiling,
+            channels: self.channels(),
+            buffers: Buffers {
+                steps: index(STEPS),
+                window: u8::try_from(WINDOW).unwrap_or(u8::MAX),
+                payload: index(MAX_PAYLOAD),
+            },
+        };
+        let sent = self.link.send_hello_reply(session, &reply);
+        debug_assert!(sent.is_ok(), "a hello fits a frame");
+    }
+
+    fn answer(&mut self, now: Micros, request: Option<Request>) {
+        // A message that passed its checksum but can't be read is of another version; the hello has refused those.
+        let Some(Request { id, command }) = request else { return };
+        let result = handlers::handle(self, now, command);
+        let sent = self.link.send(&Report::Response(Response { id, result }));
+        debug_assert!(sent.is_ok(), "requests are turned away while there is no room for their answer");
+    }
+
+    /// Writes bytes for the host into `out`, which has room for [`zygote_protocol::MAX_ENCODED`], and returns how
+    /// many; 0 when nothing is due. To be called until it returns 0.
+    pub fn poll_transmit(&mut self, now: Micros, out: &mut [u8]) -> usize {
+        while self.link.session().is_some() && self.link.room() > ROOM_FOR_RESPONSES {
+            let Some(event) = self.events.pop() else { break };
+            let sent = self.link.send(&Report::Event(event));
+            debug_assert!(sent.is_ok(), "there was room");
+        }
+        self.link.poll_transmit(now, out)
+    }
+
+    /// When [`Self::poll_transmit`] will next have something to send.
+    pub fn poll_timeout(&self, now: Micros) -> Option<Micros> {
+        self.link.poll_timeout(now)
+    }
+
+    /// The control tick: takes a reading of everything and decides what every actuator does. Boards call it at
+    /// least every 5 ms, so that a stop and a lost link act in time (S3, S8).
+    pub fn tick(&mut self, now: Micros, inputs: &Inputs<'_>) {
+        self.supply = inputs.supply;
+        self.current = inputs.current;
+        self.stop_pressed = inputs.stop_pressed;
+        let sensors = self.sample(inputs);
+        if self.stop_pressed && !matches!(self.mode, Mode::Safe(_)) {
+            self.trip(now, Trip::new(FaultCode::StopButton, 0, 0));
+        }
+        if let Err(fault) = self.check_all(now, sensors) {
+            self.fail(fault);
+        }
+        if let Mode::Running(limits) = self.mode
+            && let Err(fault) = self.run(now, &limits)
+        {
+            self.fail(fault);
+        }
+        if now >= self.telemetry_due {
+            self.telemetry_due = now.plus(TELEMETRY_EVERY);
+            self.send_telemetry(now);
+        }
+    }
+
+    /// Gives every guard its reading; a heater without one reads as open. Returns the first that must not go on.
+    fn sample(&mut self, inputs: &Inputs<'_>) -> Result<(), (usize, Trip)> {
+        let mut verdict = Ok(());
+        let steps = self.program.steps();
+        for (channel, guard) in self.guards.iter_mut().enumerate() {
+            let counts = inputs.thermistors.get(channel).copied().unwrap_or(u16::MAX);
+            if let Err(trip) = guard.sample(counts, &self.config.thermistor)
+                && verdict.is_ok()
+                && steps.iter().any(|step| heater_of(&step.action) == Some(channel))
+            {
+                verdict = Err((channel, trip));
+            }
+        }
+        verdict
+    }
+
+    /// Everything that must hold while something may be energised.
+    fn check_all(&mut self, now: Micros, sensors: Result<(), (usize, Trip)>) -> Result<(), Fault> {
+        let limits = match self.mode {
+            Mode::Armed { until, limits, lifetime } => {
+                if now >= until {
+                    return Err(Trip::new(FaultCode::ArmExpired, lifetime.0, lifetime.0).at(now, None, None));
+                }
+                limits
+            }
+            Mode::Running(limits) => limits,
+            Mode::Idle | Mode::Loaded | Mode::Finished | Mode::Safe(_) => return Ok(()),
+        };
+        let silence = now.since(self.link.last_heard());
+        if self.link.session().is_none() || silence > limits.link_timeout.to_micros() {
+            let silence = i64::try_from(silence / 1000).unwrap_or(i64::MAX);
+            return Err(Trip::new(FaultCode::LinkLost, silence, limits.link_timeout.0).at(now, None, None));
+        }
+        sensors.map_err(|(channel, trip)| {
+            let step = self.program.steps().iter().position(|step| heater_of(&step.action) == Some(channel));
+            trip.at(now, step.map(index), Some(index(channel)))
+        })?;
+        self.check_temperatures(now, &limits)?;
+        self.supply_guard.check(self.current, limits.supply).map_err(|trip| trip.at(now, None, None))
+    }
+
+    fn check_temperatures(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {
+        let steps = self.program.steps();
+        for ((at, step), state) in (0..).zip(steps).zip(self.sequencer.states()) {
+            let Action::Heat(heat) = step.action else { continue };
+            let Some(guard) = self.guards.get_mut(usize::from(heat.channel)) else { continue };
+            let driven = state == StepState::Moving;
+            let most = heat.max_temperature.min(limits.max_temperature);
+            guard.check(driven, most).map_err(|trip| trip.at(now, Some(at), Some(heat.channel)))?;
+        }
+        Ok(())
+    }
+
+    fn run(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {
+        let mut outputs = Outputs { main_switch: true, ..Outputs::OFF };
+        let guards = &self.guards;
+        let temperature = |channel| temperature_of(guards, channel);
+        let instant = Instant { now, supply: limits.supply, temperature: &temperature };
+        self.sequencer.advance(self.program.steps(), &instant, &mut self.events, &mut outputs)?;
+        self.outputs = outputs;
+        if self.sequencer.is_finished() {
+            self.enter(now, Mode::Finished);
+        }
+        Ok(())
+    }
+
+    fn send_telemetry(&mut self, now: Micros) {
+        if self.link.session().is_none() {
+            return;
+        }
+        let guards = &self.guards;
+        let temperature = |channel| temperature_of(guards, channel);
+        let instant = Instant { now, supply: Milliamps(0), temperature: &temperature };
+        let telemetry = Telemetry {
+            at: now,
+            state: self.mode.state(),
+            supply: self.supply,
+            current: self.current,
+            opened: self.sequencer.opened(),
+            motions: self.sequencer.motions(&instant),
+        };
+        let sent = self.link.send_telemetry(&telemetry);
+        debug_assert!(sent.is_ok(), "telemetry fits a frame");
+    }
+
+    /// Goes into another state and says so. Leaving Armed and Running turns everything off.
+    pub(crate) fn enter(&mut self, now: Micros, mode: Mode) {
+        let was_energised = self.mode.is_energised();
+        self.mode = mode;
+        if !self.mode.is_energised() {
+            self.outputs = Outputs::OFF;
+            if was_energised {
+                self.sequencer.interrupt();
+            }
+        }
+        self.events.push(Event { at: now, kind: EventKind::State(self.mode.state()) });
+    }
+
+    /// Forgets what the guards learned, at arming.
+    pub(crate) fn restart_guards(&mut self) {
+        self.guards.iter_mut().for_each(ThermalGuard::restart);
+        self.supply_guard = SupplyGuard::new();
+    }
+
+    fn trip(&mut self, now: Micros, trip: Trip) {
+        self.fail(trip.at(now, None, None));
+    }
+
+    /// Everything off, latched until cleared; the first fault is the one that is told.
+    fn fail(&mut self, fault: Fault) {
+        self.outputs = Outputs::OFF;
+        if matches!(self.mode, Mode::Safe(_)) {
+            return;
+        }
+        self.enter(fault.at, Mode::Safe(fault));
+        if self.link.session().is_some() {
+            // With more faults waiting than the link keeps, the host has not listened; its next status tells it.
+            self.link.send_urgent(&fault).ok();
+        }
+    }
+}
+
+fn heater_of(action: &Action) -> Option<usize> {
+    match action {
+        Action::Heat(heat) => Some(usize::from(heat.channel)),
+        Action::Turn(_) | Action::Release(_) => None,
+    }
+}
+
+fn temperature_of(guards: &[ThermalGuard], channel: u16) -> Option<CentiCelsius> {
+    guards.get(usize::from(channel)).and_then(ThermalGuard::temperature)
+}

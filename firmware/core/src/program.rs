@@ -1,0 +1,217 @@
+//! The program store: steps as they are uploaded, and the checks before they may be armed (S10, S13).
+//!
+//! ```text
+//!   Empty --Upload--> Receiving --all Steps, Commit--> Checked
+//!     ^                   |  refused steps change nothing
+//!     +------ Upload starts over from any state
+//! ```
+
+use crate::config::Config;
+use heapless::{String, Vec};
+use zygote_protocol::{
+    Action, CentiCelsius, Channels, Heat, Limits, Refusal, RefusalCode, Step, Turn, program_crc,
+};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Empty,
+    Receiving,
+    Checked,
+}
+
+/// At most `STEPS` steps with what was declared about them.
+#[derive(Debug)]
+pub(crate) struct Program<const STEPS: usize> {
+    state: State,
+    run: u32,
+    rig: String<32>,
+    declared: u16,
+    crc: u32,
+    steps: Vec<Step, STEPS>,
+}
+
+/// A refusal in short.
+pub(crate) fn refuse(code: RefusalCode, at: u16, expected: impl Into<i64>, got: impl Into<i64>) -> Refusal {
+    Refusal { code, at, expected: expected.into(), got: got.into() }
+}
+
+/// An index as it goes over the wire; programs have fewer than 65,536 steps.
+pub(crate) fn index(value: usize) -> u16 {
+    u16::try_from(value).unwrap_or(u16::MAX)
+}
+
+impl<const STEPS: usize> Program<STEPS> {
+    pub(crate) const fn new() -> Self {
+        Self { state: State::Empty, run: 0, rig: String::new(), declared: 0, crc: 0, steps: Vec::new() }
+    }
+
+    /// The steps, once they are checked.
+    pub(crate) fn steps(&self) -> &[Step] {
+        if self.state == State::Checked { &self.steps } else { &[] }
+    }
+
+    /// The run, where there is a program or one under way.
+    pub(crate) fn run(&self) -> Option<u32> {
+        (self.state != State::Empty).then_some(self.run)
+    }
+
+    pub(crate) fn rig(&self) -> &str {
+        &self.rig
+    }
+
+    /// Forgets everything and awaits steps.
+    pub(crate) fn upload(&mut self, run: u32, rig: String<32>, steps: u16, crc: u32) -> Result<(), Refusal> {
+        if steps == 0 {
+            return Err(refuse(RefusalCode::ProgramEmpty, 0, 1, 0));
+        }
+        if usize::from(steps) > STEPS {
+            return Err(refuse(RefusalCode::TooManySteps, 0, index(STEPS), steps));
+        }
+        *self = Self { state: State::Receiving, run, rig, declared: steps, crc, steps: Vec::new() };
+        Ok(())
+    }
+
+    /// Stores the next steps.
+    pub(crate) fn store(&mut self, first: u16, steps: &[Step]) -> Result<(), Refusal> {
+        if self.state != State::Receiving {
+            return Err(refuse(RefusalCode::NoUpload, first, 0, 0));
+        }
+        let next = index(self.steps.len());
+        if first != next {
+            return Err(refuse(RefusalCode::StepsOutOfSequence, first, next, first));
+        }
+        let total = self.steps.len() + steps.len();
+        if total > usize::from(self.declared) {
+            return Err(refuse(RefusalCode::TooManySteps, first, self.declared, index(total)));
+        }
+        self.steps
+            .extend_from_slice(steps)
+            .map_err(|_| refuse(RefusalCode::TooManySteps, first, index(STEPS), index(total)))
+    }
+
+    /// Checks the whole program against the board.
+    pub(crate) fn commit(&mut self, config: &Config, channels: Channels) -> Result<(), Refusal> {
+        if self.state != State::Receiving {
+            return Err(refuse(RefusalCode::NoUpload, 0, 0, 0));
+        }
+        let stored = index(self.steps.len());
+        if stored != self.declared {
+            return Err(refuse(RefusalCode::ProgramIncomplete, stored, self.declared, stored));
+        }
+        let crc = program_crc(&self.steps);
+        if crc != self.crc {
+            return Err(refuse(RefusalCode::ProgramChecksum, 0, self.crc, crc));
+        }
+        for (at, step) in (0..).zip(&self.steps) {
+            check_order(at, step)?;
+            self.check_unique(at, step)?;
+            check_channel(at, step, channels)?;
+            check_motion(at, step, &config.ceiling, config)?;
+        }
+        self.state = State::Checked;
+        Ok(())
+    }
+
+    /// Checks the steps against the limits that a session asks for.
+    pub(crate) fn check_limits(&self, limits: &Limits, config: &Config) -> Result<(), Refusal> {
+        (0..).zip(&self.steps).try_for_each(|(at, step)| check_motion(at, step, limits, config))
+    }
+
+    /// No other step before this one moves the same hinge or drives the same channel.
+    fn check_unique(&self, at: u16, step: &Step) -> Result<(), Refusal> {
+        for earlier in self.steps.iter().take(usize::from(at)) {
+            if earlier.hinge == step.hinge {
+                return Err(refuse(RefusalCode::HingeTaken, at, step.hinge, step.hinge));
+            }
+            if output(&earlier.action) == output(&step.action) {
+                return Err(refuse(
+                    RefusalCode::ChannelTaken,
+                    at,
+                    output(&step.action).1,
+                    output(&step.action).1,
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Kind and channel: what two steps can't share.
+fn output(action: &Action) -> (u8, u16) {
+    match action {
+        Action::Heat(heat) => (0, heat.channel),
+        Action::Turn(turn) => (1, turn.channel),
+        Action::Release(release) => (2, release.channel),
+    }
+}
+
+fn check_order(at: u16, step: &Step) -> Result<(), Refusal> {
+    match step.after.iter().find(|before| **before >= at) {
+        Some(&late) => Err(refuse(RefusalCode::OrderViolated, at, i64::from(at) - 1, late)),
+        None => Ok(()),
+    }
+}
+
+fn check_channel(at: u16, step: &Step, channels: Channels) -> Result<(), Refusal> {
+    let (count, channel) = match step.action {
+        Action::Heat(heat) => (channels.heaters, heat.channel),
+        Action::Turn(turn) => (channels.servos, turn.channel),
+        Action::Release(release) => (channels.springs, release.channel),
+    };
+    if channel < count {
+        Ok(())
+    } else {
+        Err(refuse(RefusalCode::UnknownChannel, at, i64::from(count) - 1, channel))
+    }
+}
+
+fn check_motion(at: u16, step: &Step, limits: &Limits, config: &Config) -> Result<(), Refusal> {
+    let current = step.action.current();
+    if current > limits.supply {
+        return Err(refuse(RefusalCode::StepOverCurrent, at, limits.supply.0, current.0));
+    }
+    match &step.action {
+        Action::Heat(heat) => check_heat(at, heat, limits),
+        Action::Turn(turn) => check_turn(at, turn, config),
+        Action::Release(release) if release.pulse > limits.max_on => {
+            Err(refuse(RefusalCode::StepOverOnTime, at, limits.max_on.0, release.pulse.0))
+        }
+        Action::Release(_) => Ok(()),
+    }
+}
+
+fn check_heat(at: u16, heat: &Heat, limits: &Limits) -> Result<(), Refusal> {
+    let over =
+        |most: CentiCelsius, got: CentiCelsius| refuse(RefusalCode::StepOverTemperature, at, most.0, got.0);
+    if heat.max_temperature > limits.max_temperature {
+        return Err(over(limits.max_temperature, heat.max_temperature));
+    }
+    if heat.target >= heat.max_temperature {
+        return Err(over(heat.max_temperature, heat.target));
+    }
+    if heat.cool >= heat.target {
+        return Err(over(heat.target, heat.cool));
+    }
+    if heat.max_on > limits.max_on {
+        return Err(refuse(RefusalCode::StepOverOnTime, at, limits.max_on.0, heat.max_on.0));
+    }
+    if heat.hold >= heat.max_on || heat.gain_window > heat.max_on || heat.rest < limits.min_rest {
+        return Err(refuse(RefusalCode::StepOverOnTime, at, heat.max_on.0, heat.hold.0));
+    }
+    // A gain of nothing would switch the watch off.
+    if heat.min_gain.0 <= 0 {
+        return Err(refuse(RefusalCode::StepOverTemperature, at, 1, heat.min_gain.0));
+    }
+    Ok(())
+}
+
+fn check_turn(at: u16, turn: &Turn, config: &Config) -> Result<(), Refusal> {
+    let range = config.servo_pulse_us.clone();
+    match [turn.from_us, turn.to_us].into_iter().find(|pulse| !range.contains(pulse)) {
+        Some(pulse) if pulse < *range.start() => {
+            Err(refuse(RefusalCode::ServoRange, at, *range.start(), pulse))
+        }
+        Some(pulse) => Err(refuse(RefusalCode::ServoRange, at, *range.end(), pulse)),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,157 @@
+//! Watches one heater's thermistor, whether the heater is on or off: is the reading believable (S5), is the
+//! hinge too hot (S4), does it get warm without being heated (S6)?
+
+use crate::io::ADC_FULL_SCALE;
+use crate::thermistor::Thermistor;
+use crate::trip::Trip;
+use zygote_protocol::{CentiCelsius, FaultCode};
+
+/// Bad samples in a row that make a fault; fewer are noise and the last good value stands.
+const FILTER: u8 = 3;
+/// Counts this close to full scale mean an open thermistor: below -45 °C for the usual part.
+const OPEN_ABOVE: u16 = ADC_FULL_SCALE - 35;
+/// Counts this close to zero mean a short: above 250 °C for the usual part.
+const SHORTED_BELOW: u16 = 40;
+/// No hinge changes so much from one sample to the next.
+const JUMP: CentiCelsius = CentiCelsius(2_000);
+/// A heater that is off may warm so much over its coldest since: by the thermistor's lag after switching off, and
+/// by warm neighbours. More means that its MOSFET conducts.
+const UNHEATED_RISE: CentiCelsius = CentiCelsius(1_500);
+
+/// One heater's guard.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ThermalGuard {
+    /// Last believable reading.
+    last: Option<CentiCelsius>,
+    bad: u8,
+    /// Coldest reading since the heater went off; `None` while it is on.
+    floor: Option<CentiCelsius>,
+}
+
+impl ThermalGuard {
+    pub(crate) const NEW: Self = Self { last: None, bad: 0, floor: None };
+
+    /// The last believable temperature.
+    pub(crate) fn temperature(&self) -> Option<CentiCelsius> {
+        self.last
+    }
+
+    /// Forgets what was learned, at arming: the hinge may have been exchanged.
+    pub(crate) fn restart(&mut self) {
+        *self = Self::NEW;
+    }
+
+    /// Takes a reading.
+    ///
+    /// # Errors
+    /// The third bad reading in a row.
+    pub(crate) fn sample(&mut self, counts: u16, thermistor: &Thermistor) -> Result<(), Trip> {
+        match self.judge(counts, thermistor) {
+            Ok(temperature) => {
+                self.last = Some(temperature);
+                self.bad = 0;
+                Ok(())
+            }
+            Err(trip) => {
+                self.bad = self.bad.saturating_add(1);
+                if self.bad >= FILTER { Err(trip) } else { Ok(()) }
+            }
+        }
+    }
+
+    fn judge(&self, counts: u16, thermistor: &Thermistor) -> Result<CentiCelsius, Trip> {
+        if counts > OPEN_ABOVE {
+            return Err(Trip::new(FaultCode::SensorOpen, counts, OPEN_ABOVE));
+        }
+        if counts < SHORTED_BELOW {
+            return Err(Trip::new(FaultCode::SensorShorted, counts, SHORTED_BELOW));
+        }
+        let temperature = thermistor.temperature(counts);
+        match self.last {
+            Some(last) if temperature.0.abs_diff(last.0) > JUMP.0.unsigned_abs() => {
+                Err(Trip::new(FaultCode::SensorJumped, temperature.0, last.0))
+            }
+            _ => Ok(temperature),
+        }
+    }
+
+    /// Holds the temperature against the limit, and against what an unheated hinge may do.
+    ///
+    /// # Errors
+    /// Too hot, or warm without being heated.
+    pub(crate) fn check(&mut self, driven: bool, max: CentiCelsius) -> Result<(), Trip> {
+        let Some(now) = self.last else { return Ok(()) };
+        if now > max {
+            return Err(Trip::new(FaultCode::OverTemperature, now.0, max.0));
+        }
+        if driven {
+            self.floor = None;
+            return Ok(());
+        }
+        let floor = self.floor.map_or(now, |floor| floor.min(now));
+        self.floor = Some(floor);
+        let most = floor.0.saturating_add(UNHEATED_RISE.0);
+        if now.0 > most { Err(Trip::new(FaultCode::UnexpectedHeat, now.0, most)) } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::thermistor::NTC_10K;
+
+    const MAX: CentiCelsius = CentiCelsius(12_000);
+    /// Readings of the usual thermistor: about 22 °C and about 45 °C.
+    const COLD: u16 = 2_190;
+    const WARM: u16 = 1_226;
+
+    fn warmed_to(counts: u16, driven: bool) -> Result<(), Trip> {
+        let mut guard = ThermalGuard::NEW;
+        for step in (counts..=COLD).rev().step_by(10) {
+            guard.sample(step, &NTC_10K)?;
+            guard.check(driven, MAX)?;
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn s5_an_open_thermistor_trips_at_the_third_sample() {
+        let mut guard = ThermalGuard::NEW;
+        assert!(guard.sample(4_095, &NTC_10K).is_ok());
+        assert!(guard.sample(4_095, &NTC_10K).is_ok());
+        assert_eq!(guard.sample(4_095, &NTC_10K).unwrap_err().code, FaultCode::SensorOpen);
+    }
+
+    #[test]
+    fn s5_two_bad_samples_and_a_good_one_are_noise() {
+        let mut guard = ThermalGuard::NEW;
+        for _ in 0..10 {
+            for counts in [0, 0, COLD] {
+                assert!(guard.sample(counts, &NTC_10K).is_ok());
+            }
+        }
+    }
+
+    #[test]
+    fn s5_a_jump_that_stays_trips_and_the_last_good_value_stands() {
+        let mut guard = ThermalGuard::NEW;
+        guard.sample(COLD, &NTC_10K).unwrap();
+        let before = guard.temperature();
+        guard.sample(WARM, &NTC_10K).unwrap();
+        guard.sample(WARM, &NTC_10K).unwrap();
+        assert_eq!(guard.temperature(), before);
+        assert_eq!(guard.sample(WARM, &NTC_10K).unwrap_err().code, FaultCode::SensorJumped);
+    }
+
+    #[test]
+    fn s6_warming_without_being_heated_trips() {
+        assert_eq!(warmed_to(WARM, false).unwrap_err().code, FaultCode::UnexpectedHeat);
+    }
+
+    #[test]
+    fn warming_while_heated_is_fine_up_to_the_limit() {
+        assert_eq!(warmed_to(WARM, true), Ok(()));
+        // About 130 °C.
+        assert_eq!(warmed_to(120, true).unwrap_err().code, FaultCode::OverTemperature);
+    }
+}

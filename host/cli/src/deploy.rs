@@ -1,0 +1,193 @@
+//! `zygote deploy`: runs a plan's schedule on a board or on the simulator, and reports.
+
+use crate::failure::{Failure, OrFail};
+use crate::output::{say, write_file};
+use crate::sim_rig::{self, SimTransport};
+use crate::{identity, input, interrupt};
+use anyhow::{Context, anyhow};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use zygote_controller::{
+    Deployment, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport, deploy,
+};
+use zygote_deployment::{Kind, Rig, Schedule};
+use zygote_protocol::Millis;
+
+/// How long an answer to the hello is waited for.
+const HELLO_PATIENCE: Millis = Millis(2_000);
+/// Session, run and boot of the simulator, so that every run is the same.
+const SIMULATED: u32 = 1;
+/// A hinge of the simulator is at its angle within this.
+const ANGLE_TOLERANCE_DEG: f64 = 1.0;
+
+/// Arguments of `zygote deploy`.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The plan
+    #[arg(value_name = "PLAN.fold")]
+    plan: PathBuf,
+    /// The rig
+    #[arg(long, value_name = "RIG.toml")]
+    rig: PathBuf,
+    #[command(flatten)]
+    target: Target,
+    /// The schedule, where it doesn't stand in the plan
+    #[arg(long, value_name = "FILE")]
+    schedule: Option<PathBuf>,
+    /// Leave the safe state of an earlier fault or stop: you have looked at the rig
+    #[arg(long)]
+    clear: bool,
+    /// Event log, one JSON object a line [default: PLAN.events.jsonl]
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+    /// Report as JSON [default: PLAN.report.json]
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Where to run.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Target {
+    /// Serial port of the board
+    #[arg(long, value_name = "DEV")]
+    port: Option<String>,
+    /// Simulated board, in virtual time
+    #[arg(long)]
+    sim: bool,
+}
+
+/// Deploys; succeeds only when every hinge is open.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let plan = input::plan(&arguments.plan)?;
+    let rig = input::rig(&arguments.rig)?;
+    let schedule = input::schedule(&arguments.plan, &plan, &rig, arguments.schedule.as_deref())?;
+    if let Some(device) = &arguments.target.port {
+        let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
+        let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule)?;
+        return judge(&report);
+    }
+    let board = sim_rig::board(&rig, Some(&schedule), SIMULATED)?;
+    let (report, transport) = run_on(arguments, SimTransport::new(board), SIMULATED, &rig, &schedule)?;
+    let truth = true_angles(&transport, &schedule, arguments.json);
+    judge(&report)?;
+    truth
+}
+
+/// Runs on a line and writes log and report; gives the line back.
+fn run_on<T: Transport>(
+    arguments: &Arguments,
+    transport: T,
+    number: u32,
+    rig: &Rig,
+    schedule: &Schedule,
+) -> Result<(RunReport, T), Failure> {
+    let interrupted = interrupt::flag()?;
+    let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
+    let log_path = beside(arguments.log.as_ref(), &arguments.plan, "events.jsonl");
+    let file = File::create(&log_path).with_context(|| format!("{}: cannot be written", log_path.display()));
+    let mut log = EventLog::new(BufWriter::new(file.or_bad_input()?));
+    let deployment = Deployment {
+        schedule,
+        rig,
+        run: number,
+        clear: arguments.clear,
+        interrupted: &|| interrupted.load(Ordering::Relaxed),
+    };
+    let bar = progress_bar(schedule.steps.len());
+    let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
+    bar.finish_and_clear();
+    let report = outcome.or_failed()?;
+    let report_path = beside(arguments.report.as_ref(), &arguments.plan, "report.json");
+    let json = serde_json::to_vec_pretty(&report).or_failed()?;
+    write_file(&report_path, &json)?;
+    if arguments.json {
+        say(String::from_utf8_lossy(&json));
+    } else {
+        say(&report);
+        say(format_args!("report: {}\nevents: {}", report_path.display(), log_path.display()));
+    }
+    tell_log_error(&log, &log_path)?;
+    Ok((report, session.into_transport()))
+}
+
+/// The file asked for, else one beside the plan.
+fn beside(asked: Option<&PathBuf>, plan: &Path, ending: &str) -> PathBuf {
+    asked.cloned().unwrap_or_else(|| plan.with_extension(ending))
+}
+
+fn tell_log_error(log: &EventLog, path: &Path) -> Result<(), Failure> {
+    match log.error() {
+        None => Ok(()),
+        Some(error) => Err(Failure::Failed(anyhow!(
+            "{}: the run is over, but its log isn't whole: {error}",
+            path.display()
+        ))),
+    }
+}
+
+fn judge(report: &RunReport) -> Result<(), Failure> {
+    if report.is_deployed() { Ok(()) } else { Err(Failure::Failed(anyhow!("the shape is not deployed"))) }
+}
+
+/// A bar on the error output, which is nothing where that is no terminal.
+fn progress_bar(steps: usize) -> ProgressBar {
+    let bar = ProgressBar::new(u64::try_from(steps).unwrap_or(u64::MAX));
+    // The template is a constant of ours; if it were wrong, the plain bar would do.
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} hinges open, {elapsed}  {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn show(bar: &ProgressBar, progress: &Progress) {
+    bar.set_position(u64::try_from(progress.opened).unwrap_or(u64::MAX));
+    if let Some(motion) = progress.motions.first() {
+        bar.set_message(describe(motion));
+    }
+}
+
+fn describe(motion: &MotionState) -> String {
+    let mut text = format!("hinge {} {}", motion.hinge, motion.phase);
+    if let Some(celsius) = motion.temperature_c {
+        text += &format!(", {celsius:.0} °C");
+    }
+    if let Some(degrees) = motion.opening_deg {
+        text += &format!(", about {degrees:.0}°");
+    }
+    text
+}
+
+/// Holds the true angles of the simulated hinges against those of the plan.
+fn true_angles(transport: &SimTransport, schedule: &Schedule, json: bool) -> Result<(), Failure> {
+    let plant = transport.board().plant();
+    let angle = |kind, channel: u16| {
+        let channel = usize::from(channel);
+        match kind {
+            Kind::Sma => plant.sma_hinges().get(channel).map(zygote_sim::plant::SmaHinge::angle_deg),
+            Kind::Servo => plant.servo_hinges().get(channel).map(zygote_sim::plant::ServoHinge::angle_deg),
+            Kind::Spring => plant.spring_hinges().get(channel).map(zygote_sim::plant::SpringHinge::angle_deg),
+        }
+    };
+    let error = |step: &zygote_deployment::Step| {
+        let truth = angle(step.motion.kind(), step.channel).unwrap_or(f64::NAN);
+        (step.hinge, (truth - f64::from(step.opening_deg)).abs())
+    };
+    let errors: Vec<_> = schedule.steps.iter().map(error).collect();
+    let good = errors.iter().filter(|(_, error)| *error <= ANGLE_TOLERANCE_DEG).count();
+    let worst = errors.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let worst =
+        worst.map_or_else(String::new, |(hinge, error)| format!(", worst hinge {hinge}: off by {error:.2}°"));
+    let line = format!("true angles: {good} of {} hinges within {ANGLE_TOLERANCE_DEG}°{worst}", errors.len());
+    if !json {
+        say(&line);
+    }
+    if good == errors.len() { Ok(()) } else { Err(Failure::Failed(anyhow!("the simulator's {line}"))) }
+}

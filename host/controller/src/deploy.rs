@@ -1,0 +1,371 @@
+//! Deploys a schedule: upload, check, arm, start, watch, and report whatever happens.
+
+use crate::event_log::{EventLog, Record};
+use crate::program::{self, ProgramError};
+use crate::report::{Outcome, RunReport};
+use crate::session::{Notice, RequestError, Session, SessionError};
+use crate::{MotionState, Transport};
+use zygote_deployment::{Fitting, Rig, RigError, Schedule};
+use zygote_protocol::{
+    CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Millis, Reply, RigId, State,
+    Step, Telemetry, program_crc,
+};
+
+/// The user's wish to stop is looked at so often.
+const WATCH: Millis = Millis(50);
+/// An arming is followed by its start at once; this is for a slow line.
+const ARM_LIFETIME: Millis = Millis(10_000);
+
+/// Why a run didn't even start. Nothing was energised.
+#[derive(Debug, thiserror::Error)]
+pub enum DeployError {
+    /// The schedule doesn't fit the MCU.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
+    /// The rig doesn't fit the schedule.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+    /// The rig's name is longer than the wire allows.
+    #[error("rig id {id:?}: expected at most 32 bytes, found {}", .id.len())]
+    RigId {
+        /// The name.
+        id: String,
+    },
+    /// The MCU is in its safe state.
+    #[error("the MCU is in its safe state ({}): look at the rig, then deploy with --clear", reason(.fault.as_ref()))]
+    Safe {
+        /// Why.
+        fault: Option<Fault>,
+    },
+    /// The MCU is armed or running.
+    #[error("the MCU is busy ({state:?}): another program uses it")]
+    Busy {
+        /// What it is doing.
+        state: State,
+    },
+    /// A command was refused, or the session ended.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+}
+
+impl From<SessionError> for DeployError {
+    fn from(error: SessionError) -> Self {
+        Self::Request(error.into())
+    }
+}
+
+fn reason(fault: Option<&Fault>) -> String {
+    fault.map_or_else(|| "no fault known".to_owned(), |fault| fault.code.to_string())
+}
+
+/// How far a run is, for a display.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// Hinges that are open.
+    pub opened: usize,
+    /// All hinges.
+    pub total: usize,
+    /// Hinges on their way, those that move before those that cool.
+    pub motions: Vec<MotionState>,
+}
+
+/// What to deploy, and how.
+pub struct Deployment<'a> {
+    /// The schedule, verified against its plan and rig.
+    pub schedule: &'a Schedule,
+    /// Its rig.
+    pub rig: &'a Rig,
+    /// Number of the run.
+    pub run: u32,
+    /// Leave the safe state first: a person has looked at the rig.
+    pub clear: bool,
+    /// Asked often: does the user want to stop?
+    pub interrupted: &'a dyn Fn() -> bool,
+}
+
+/// Runs a deployment to its end, whatever that is.
+///
+/// # Errors
+/// [`DeployError`], when it didn't start.
+pub fn deploy<T: Transport>(
+    session: &mut Session<T>,
+    deployment: &Deployment<'_>,
+    log: &mut EventLog,
+    show: &mut dyn FnMut(&Progress),
+) -> Result<RunReport, DeployError> {
+    let Deployment { schedule, rig, run, .. } = *deployment;
+    let info = session.info().clone();
+    let (board, firmware) = (info.identity.board.to_string(), info.identity.firmware.to_string());
+    log.add(
+        session.now(),
+        &Record::Connected {
+            line: session.transport().name(),
+            board: board.clone(),
+            firmware: firmware.clone(),
+            boot: info.identity.boot,
+        },
+    );
+    let fittings = rig.fit(schedule.steps.len())?;
+    let steps = program::program(schedule, &info)?;
+    let limits = program::limits(schedule, &steps, rig, &info)?;
+    let rig_id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
+    make_ready(session, deployment.clear)?;
+    upload(session, run, &rig_id, &steps)?;
+    log.add(session.now(), &Record::Uploaded { run, steps: steps.len() });
+    let report = RunReport::new(run, schedule, &board, &firmware);
+    let mut watch = Watch { schedule, fittings, report, started: None, ended: None, finished: false, log };
+    if let Err(error) = start(session, run, rig_id, limits) {
+        // Perhaps it is armed; the error is what the user must know, not whether this last word got through.
+        session.stop().ok();
+        return Err(error.into());
+    }
+    let outcome = watch.until_the_end(session, deployment.interrupted, show);
+    Ok(watch.settle(session, outcome))
+}
+
+fn make_ready<T: Transport>(session: &mut Session<T>, clear: bool) -> Result<(), DeployError> {
+    let status = session.status()?;
+    match status.state {
+        State::Idle | State::Loaded | State::Finished => Ok(()),
+        State::Armed | State::Running => Err(DeployError::Busy { state: status.state }),
+        State::Safe if clear => Ok(session.request(Command::Clear).map(|_| ())?),
+        State::Safe => Err(DeployError::Safe { fault: status.fault }),
+    }
+}
+
+/// Sends the steps without waiting for each answer, then looks at the answers.
+fn upload<T: Transport>(
+    session: &mut Session<T>,
+    run: u32,
+    rig: &RigId,
+    steps: &[Step],
+) -> Result<(), RequestError> {
+    // The program fits the MCU's buffer, which counts its steps in 16 bits.
+    let count = u16::try_from(steps.len()).unwrap_or(u16::MAX);
+    session.request(Command::Upload { run, rig: rig.clone(), steps: count, crc: program_crc(steps) })?;
+    let mut pending = Vec::new();
+    for (first, chunk) in (0..)
+        .step_by(zygote_protocol::STEPS_PER_COMMAND)
+        .zip(steps.chunks(zygote_protocol::STEPS_PER_COMMAND))
+    {
+        let steps = chunk.iter().cloned().collect();
+        pending.push(session.submit(Command::Steps { first, steps })?);
+    }
+    for id in pending {
+        session.response(id)?.map_err(|refusal| RequestError::Refused { command: "steps", refusal })?;
+    }
+    session.request(Command::Commit).map(|_| ())
+}
+
+fn start<T: Transport>(
+    session: &mut Session<T>,
+    run: u32,
+    rig: RigId,
+    limits: Limits,
+) -> Result<(), RequestError> {
+    session.request(Command::Arm { rig, limits, lifetime: ARM_LIFETIME })?;
+    session.request(Command::Start { run }).map(|_| ())
+}
+
+/// A run being watched.
+struct Watch<'a> {
+    schedule: &'a Schedule,
+    fittings: Vec<Fitting>,
+    report: RunReport,
+    /// MCU time of the start and of the end.
+    started: Option<Micros>,
+    ended: Option<Micros>,
+    /// The MCU says that every step is done.
+    finished: bool,
+    log: &'a mut EventLog,
+}
+
+impl Watch<'_> {
+    /// Watches until every hinge is open, something fails, or the user wants to stop.
+    fn until_the_end<T: Transport>(
+        &mut self,
+        session: &mut Session<T>,
+        interrupted: &dyn Fn() -> bool,
+        show: &mut dyn FnMut(&Progress),
+    ) -> Outcome {
+        loop {
+            if interrupted() {
+                return self.stop(session);
+            }
+            let notice = match session.notice(session.now().plus(WATCH)) {
+                Ok(notice) => notice,
+                Err(error) => return self.lost(session.now(), &error),
+            };
+            let now = session.now();
+            match notice {
+                None => {}
+                Some(Notice::Event(event)) => self.take_event(now, &event),
+                Some(Notice::Fault(fault)) => return self.take_fault(now, &fault),
+                Some(Notice::Telemetry(telemetry)) => show(&self.take_telemetry(now, &telemetry)),
+            }
+            if self.finished {
+                return Outcome::Deployed;
+            }
+        }
+    }
+
+    fn stop<T: Transport>(&mut self, session: &mut Session<T>) -> Outcome {
+        self.log.add(session.now(), &Record::StopRequested);
+        match session.stop() {
+            Ok(after) => {
+                self.log.add(session.now(), &Record::StopConfirmed { after_us: after.0 });
+                Outcome::Stopped
+            }
+            Err(error) => self.lost(session.now(), &error),
+        }
+    }
+
+    fn lost(&mut self, now: Micros, error: &SessionError) -> Outcome {
+        let message = error.to_string();
+        self.log.add(now, &Record::Lost { message: message.clone() });
+        Outcome::Lost(message)
+    }
+
+    fn hinge(&self, step: u16) -> usize {
+        self.schedule.steps.get(usize::from(step)).map_or(usize::MAX, |step| step.hinge)
+    }
+
+    /// Seconds of the run at an MCU time.
+    fn seconds(&self, at: Micros) -> Option<f64> {
+        self.started.map(|started| seconds(at.since(started)))
+    }
+
+    fn take_event(&mut self, now: Micros, event: &Event) {
+        let mcu_us = event.at.0;
+        let at = self.seconds(event.at);
+        let record = match event.kind {
+            EventKind::State(state) => {
+                match state {
+                    State::Running => self.started = Some(event.at),
+                    State::Finished | State::Safe => self.ended = Some(event.at),
+                    State::Idle | State::Loaded | State::Armed => {}
+                }
+                Record::State { mcu_us, state: format!("{state:?}").to_lowercase() }
+            }
+            EventKind::StepStarted { step } => {
+                self.book(step, zygote_protocol::StepState::Moving, |hinge| hinge.started_s = at);
+                Record::Started { mcu_us, step, hinge: self.hinge(step) }
+            }
+            EventKind::StepOpened { step } => {
+                self.book(step, zygote_protocol::StepState::Opened, |hinge| hinge.opened_s = at);
+                Record::Opened { mcu_us, step, hinge: self.hinge(step) }
+            }
+            EventKind::StepDone { step, peak } => {
+                let peak_c = peak.map(celsius);
+                self.book(step, zygote_protocol::StepState::Done, |hinge| {
+                    hinge.done_s = at;
+                    hinge.peak_c = peak_c;
+                });
+                Record::Done { mcu_us, step, hinge: self.hinge(step), peak_c }
+            }
+        };
+        self.log.add(now, &record);
+        self.finished |= event.kind == EventKind::State(State::Finished);
+    }
+
+    fn book(
+        &mut self,
+        step: u16,
+        state: zygote_protocol::StepState,
+        set: impl FnOnce(&mut crate::report::HingeReport),
+    ) {
+        let step = usize::from(step);
+        self.report.settle(step, state);
+        if let Some(hinge) = self.report.hinges.get_mut(step) {
+            set(hinge);
+        }
+    }
+
+    fn take_fault(&mut self, now: Micros, fault: &Fault) -> Outcome {
+        let hinge = fault.step.map(|step| self.hinge(step));
+        self.ended = Some(fault.at);
+        let Fault { value, limit, .. } = *fault;
+        let code = fault.code.to_string();
+        self.log.add(now, &Record::Fault { mcu_us: fault.at.0, fault: code.clone(), value, limit, hinge });
+        if fault.code == FaultCode::Stopped {
+            return Outcome::Stopped;
+        }
+        let place = hinge.map_or_else(String::new, |hinge| format!(" at hinge {hinge}"));
+        Outcome::Fault(format!("{code}{place}: measured {value}, limit {limit}"))
+    }
+
+    fn take_telemetry(&mut self, now: Micros, telemetry: &Telemetry) -> Progress {
+        let motions: Vec<_> = telemetry
+            .motions
+            .iter()
+            .filter_map(|motion| {
+                let step = self.schedule.steps.get(usize::from(motion.step))?;
+                Some(MotionState::new(*motion, step, &self.fittings.get(step.hinge)?.drive))
+            })
+            .collect();
+        let temperatures =
+            motions.iter().filter_map(|motion| Some((motion.hinge, motion.temperature_c?))).collect();
+        self.log.add(
+            now,
+            &Record::Telemetry {
+                mcu_us: telemetry.at.0,
+                supply_mv: telemetry.supply.0,
+                current_ma: telemetry.current.0,
+                opened: telemetry.opened,
+                temperatures,
+            },
+        );
+        Progress { opened: usize::from(telemetry.opened), total: self.schedule.steps.len(), motions }
+    }
+
+    /// Asks the MCU for the last word on every step, and closes the report.
+    fn settle<T: Transport>(mut self, session: &mut Session<T>, outcome: Outcome) -> RunReport {
+        let outcome = match outcome {
+            Outcome::Lost(why) => Outcome::Lost(why),
+            ended => match self.ask_states(session) {
+                Ok(()) => ended,
+                Err(error) => Outcome::Lost(error.to_string()),
+            },
+        };
+        if let (Some(started), Some(ended)) = (self.started, self.ended) {
+            self.report.duration_s = seconds(ended.since(started));
+        }
+        self.report.finish(outcome, session.link_counters());
+        self.report
+    }
+
+    fn ask_states<T: Transport>(&mut self, session: &mut Session<T>) -> Result<(), RequestError> {
+        let total = self.report.hinges.len();
+        let mut next = 0;
+        while next < total {
+            let first = u16::try_from(next).unwrap_or(u16::MAX);
+            let Reply::Progress { steps, .. } = session.request(Command::Progress { first })? else {
+                return Err(RequestError::WrongReply { command: "progress" });
+            };
+            if steps.is_empty() {
+                return Err(RequestError::WrongReply { command: "progress" });
+            }
+            for state in steps {
+                self.report.settle(next, state);
+                next += 1;
+            }
+        }
+        // The state's event may still be under way behind the fault that caused it.
+        let until = session.now().plus(WATCH);
+        while let Some(notice) = session.notice(until)? {
+            if let Notice::Event(event) = notice {
+                self.take_event(session.now(), &event);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a run is far shorter than 2^52 us")]
+fn seconds(us: u64) -> f64 {
+    us as f64 / 1e6
+}
+
+fn celsius(temperature: CentiCelsius) -> f64 {
+    f64::from(temperature.0) / 100.0
+}

@@ -1,0 +1,149 @@
+//! The event log of a run: one JSON object a line, in the order of arrival.
+//!
+//! Every record has `host_us` (this program's clock, from the start of the log) and `kind`; what the MCU tells also
+//! has `mcu_us` (its clock, from its boot).
+
+use serde::Serialize;
+use std::io::{self, Write};
+use zygote_protocol::Micros;
+
+/// One line of the log, without its host time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Record {
+    /// The session is open.
+    Connected {
+        /// The line.
+        line: String,
+        /// The board's name.
+        board: String,
+        /// Version of its firmware.
+        firmware: String,
+        /// Its boot id.
+        boot: u32,
+    },
+    /// The program is stored and checked.
+    Uploaded {
+        /// The run's number.
+        run: u32,
+        /// Its steps.
+        steps: usize,
+    },
+    /// The MCU went into another state.
+    State {
+        /// MCU time.
+        mcu_us: u64,
+        /// The state.
+        state: String,
+    },
+    /// A hinge began to move.
+    Started {
+        /// MCU time.
+        mcu_us: u64,
+        /// Index of the step.
+        step: u16,
+        /// Number of the hinge.
+        hinge: usize,
+    },
+    /// A hinge is open.
+    Opened {
+        /// MCU time.
+        mcu_us: u64,
+        /// Index of the step.
+        step: u16,
+        /// Number of the hinge.
+        hinge: usize,
+    },
+    /// A hinge is open and, if it was heated, cool.
+    Done {
+        /// MCU time.
+        mcu_us: u64,
+        /// Index of the step.
+        step: u16,
+        /// Number of the hinge.
+        hinge: usize,
+        /// Highest temperature measured, °C.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        peak_c: Option<f64>,
+    },
+    /// Everything was turned off.
+    Fault {
+        /// MCU time.
+        mcu_us: u64,
+        /// The code with its meaning.
+        fault: String,
+        /// What was measured.
+        value: i64,
+        /// What it was held against.
+        limit: i64,
+        /// The hinge concerned.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        hinge: Option<usize>,
+    },
+    /// A look at the rig.
+    Telemetry {
+        /// MCU time.
+        mcu_us: u64,
+        /// Supply voltage, mV.
+        supply_mv: u32,
+        /// Measured current, mA.
+        current_ma: u32,
+        /// Steps opened.
+        opened: u16,
+        /// Temperature, °C, of each hinge under way that has one.
+        temperatures: Vec<(usize, f64)>,
+    },
+    /// The user stopped the run.
+    StopRequested,
+    /// The MCU has confirmed the stop.
+    StopConfirmed {
+        /// Time from the request to the confirmation.
+        after_us: u64,
+    },
+    /// The session broke.
+    Lost {
+        /// Why.
+        message: String,
+    },
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    host_us: u64,
+    #[serde(flatten)]
+    record: &'a Record,
+}
+
+/// Where records go. A log that can't be written doesn't stop a run: the first error is kept and told at the end.
+pub struct EventLog {
+    sink: Box<dyn Write>,
+    start: Option<Micros>,
+    error: Option<io::Error>,
+}
+
+impl EventLog {
+    /// A log into `sink`, flushed after every line.
+    pub fn new(sink: impl Write + 'static) -> Self {
+        Self { sink: Box::new(sink), start: None, error: None }
+    }
+
+    /// Adds a record.
+    pub fn add(&mut self, now: Micros, record: &Record) {
+        let start = *self.start.get_or_insert(now);
+        if self.error.is_some() {
+            return;
+        }
+        self.error = self.write(&Line { host_us: now.since(start), record }).err();
+    }
+
+    fn write(&mut self, line: &Line<'_>) -> io::Result<()> {
+        serde_json::to_writer(&mut self.sink, line)?;
+        self.sink.write_all(b"\n")?;
+        self.sink.flush()
+    }
+
+    /// The first error, if the log isn't whole.
+    pub fn error(&self) -> Option<&io::Error> {
+        self.error.as_ref()
+    }
+}

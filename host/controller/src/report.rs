@@ -1,0 +1,193 @@
+//! What came of a run (S12): which hinges moved, which didn't, why, and what to do next.
+
+use serde::Serialize;
+use std::fmt;
+use zygote_deployment::{Kind, Schedule};
+use zygote_protocol::{LinkCounters, StepState};
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "outcome", content = "why", rename_all = "snake_case")]
+pub enum Outcome {
+    /// Every hinge is open.
+    Deployed,
+    /// The user stopped it, and the MCU confirmed.
+    Stopped,
+    /// The MCU turned everything off.
+    Fault(String),
+    /// The session broke; the MCU turns everything off by itself.
+    Lost(String),
+}
+
+/// What became of one hinge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HingeOutcome {
+    /// Open.
+    Opened,
+    /// It was moving when everything went off; its angle isn't known.
+    Interrupted,
+    /// It never started.
+    NotMoved,
+}
+
+/// One hinge of the run. Times are MCU time from the start of the run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HingeReport {
+    /// Number of the hinge in the plan.
+    pub hinge: usize,
+    /// What moves it.
+    pub kind: Kind,
+    /// Its channel.
+    pub channel: u16,
+    /// What became of it.
+    pub outcome: HingeOutcome,
+    /// When it started, s.
+    pub started_s: Option<f64>,
+    /// When it was open, s.
+    pub opened_s: Option<f64>,
+    /// When it was open and cool, s.
+    pub done_s: Option<f64>,
+    /// Highest temperature measured, °C.
+    pub peak_c: Option<f64>,
+}
+
+/// A run in retrospect.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RunReport {
+    /// The run's number.
+    pub run: u32,
+    /// The rig.
+    pub rig: String,
+    /// The board's name.
+    pub board: String,
+    /// Version of its firmware.
+    pub firmware: String,
+    /// How it ended.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// MCU time from the start to the end of the run, s.
+    pub duration_s: f64,
+    /// Time that the schedule expected until the last hinge is open, s.
+    pub expected_s: f64,
+    /// The hinges, in the order of the steps.
+    pub hinges: Vec<HingeReport>,
+    /// Frames that this side got damaged, and data frames that it sent again.
+    pub damaged_frames: u32,
+    /// See `damaged_frames`.
+    pub repeated_frames: u32,
+    /// What to do now.
+    pub next: String,
+}
+
+impl RunReport {
+    /// A report in which nothing has happened yet.
+    pub(crate) fn new(run: u32, schedule: &Schedule, board: &str, firmware: &str) -> Self {
+        let hinges = schedule
+            .steps
+            .iter()
+            .map(|step| HingeReport {
+                hinge: step.hinge,
+                kind: step.motion.kind(),
+                channel: step.channel,
+                outcome: HingeOutcome::NotMoved,
+                started_s: None,
+                opened_s: None,
+                done_s: None,
+                peak_c: None,
+            })
+            .collect();
+        Self {
+            run,
+            rig: schedule.rig.clone(),
+            board: board.to_owned(),
+            firmware: firmware.to_owned(),
+            outcome: Outcome::Deployed,
+            duration_s: 0.0,
+            #[expect(clippy::cast_precision_loss, reason = "a makespan is far below 2^52 ms")]
+            expected_s: schedule.makespan.0 as f64 / 1e3,
+            hinges,
+            damaged_frames: 0,
+            repeated_frames: 0,
+            next: String::new(),
+        }
+    }
+
+    /// Takes over what the MCU says of a step, which is the last word on it.
+    pub(crate) fn settle(&mut self, step: usize, state: StepState) {
+        if let Some(hinge) = self.hinges.get_mut(step) {
+            hinge.outcome = match state {
+                StepState::Waiting => HingeOutcome::NotMoved,
+                StepState::Moving | StepState::Interrupted => HingeOutcome::Interrupted,
+                StepState::Opened | StepState::Done => HingeOutcome::Opened,
+            };
+        }
+    }
+
+    /// Ends the report.
+    pub(crate) fn finish(&mut self, outcome: Outcome, counters: LinkCounters) {
+        self.damaged_frames = counters.bad;
+        self.repeated_frames = counters.repeated;
+        self.next = advice(&outcome, self.count(HingeOutcome::Interrupted));
+        self.outcome = outcome;
+    }
+
+    /// How many hinges ended so.
+    pub fn count(&self, outcome: HingeOutcome) -> usize {
+        self.hinges.iter().filter(|hinge| hinge.outcome == outcome).count()
+    }
+
+    /// Every hinge is open.
+    pub fn is_deployed(&self) -> bool {
+        self.outcome == Outcome::Deployed && self.count(HingeOutcome::Opened) == self.hinges.len()
+    }
+}
+
+fn advice(outcome: &Outcome, interrupted: usize) -> String {
+    let look = if interrupted == 0 {
+        "no hinge was moving at that moment"
+    } else {
+        "look at the hinges that were interrupted: their angle isn't known"
+    };
+    match outcome {
+        Outcome::Deployed => "nothing: every hinge is open".to_owned(),
+        Outcome::Stopped | Outcome::Fault(_) => {
+            format!("{look}; mend what is wrong, fold the structure back, and deploy again with --clear")
+        }
+        Outcome::Lost(_) => format!(
+            "{look}; the MCU has turned everything off by itself: check cable and power, then deploy again with --clear"
+        ),
+    }
+}
+
+impl fmt::Display for RunReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (total, opened) = (self.hinges.len(), self.count(HingeOutcome::Opened));
+        match &self.outcome {
+            Outcome::Deployed => writeln!(f, "deployed: {opened} of {total} hinges are open")?,
+            Outcome::Stopped => writeln!(f, "stopped: {opened} of {total} hinges are open")?,
+            Outcome::Fault(why) | Outcome::Lost(why) => {
+                writeln!(f, "not deployed: {opened} of {total} hinges are open; {why}")?;
+            }
+        }
+        for (name, outcome) in
+            [("interrupted", HingeOutcome::Interrupted), ("not moved", HingeOutcome::NotMoved)]
+        {
+            let hinges: Vec<_> = self.hinges.iter().filter(|hinge| hinge.outcome == outcome).collect();
+            if !hinges.is_empty() {
+                let numbers: Vec<_> = hinges.iter().map(|hinge| hinge.hinge.to_string()).collect();
+                writeln!(f, "{name}: hinges {}", numbers.join(", "))?;
+            }
+        }
+        writeln!(
+            f,
+            "duration: {:.1} s (expected {:.1} s until the last hinge is open)",
+            self.duration_s, self.expected_s
+        )?;
+        let peak = self.hinges.iter().filter_map(|hinge| hinge.peak_c).fold(f64::NEG_INFINITY, f64::max);
+        if peak.is_finite() {
+            writeln!(f, "hottest hinge: {peak:.1} °C")?;
+        }
+        write!(f, "next: {}", self.next)
+    }
+}

@@ -1,0 +1,410 @@
+//! A session with one MCU: the hello, requests with their responses, and the news in between.
+
+use crate::Transport;
+use std::collections::{BTreeMap, VecDeque};
+use std::io;
+use zygote_protocol::{
+    Command, Event, Fault, Hello, HelloReply, Link, LinkCounters, MAX_ENCODED, Micros, Millis, Received,
+    Refusal, Reply, Report, Request, Response, SendError, Status, Telemetry, Urgent, VERSION, VERSION_MIN,
+    decode_payload, schema,
+};
+
+/// A hello is repeated so often until it is answered.
+const HELLO_EVERY: Millis = Millis(200);
+/// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
+const SILENCE: Millis = Millis(2_000);
+
+/// Why no session was opened.
+#[derive(Debug, thiserror::Error)]
+pub enum ConnectError {
+    /// Nobody answered.
+    #[error(
+        "{line}: no answer to a hello within {waited_ms} ms ({heard} bytes came, none of them a zygote's frame): \
+         is this a zygote, and is the baud rate right?"
+    )]
+    NoAnswer {
+        /// The line.
+        line: String,
+        /// How long it was waited for.
+        waited_ms: u32,
+        /// Bytes that came all the same.
+        heard: u64,
+    },
+    /// An answer of another version.
+    #[error(
+        "{line}: the firmware ({firmware}) speaks protocol {theirs_min} to {theirs}, this program {VERSION_MIN} to \
+         {VERSION}: flash the firmware of this program's version, or use the program of the firmware's"
+    )]
+    Version {
+        /// The line.
+        line: String,
+        /// Name of the firmware, where it could be read.
+        firmware: String,
+        /// Oldest version that the MCU understands.
+        theirs_min: u16,
+        /// Newest version that the MCU understands.
+        theirs: u16,
+    },
+    /// The same version number, but other messages.
+    #[error(
+        "{line}: the firmware says protocol {VERSION} as this program does, but its messages differ (schema \
+         {theirs:08x}, here {ours:08x}): one of the two is a development build; build both from one commit"
+    )]
+    Schema {
+        /// The line.
+        line: String,
+        /// Schema hash of the firmware.
+        theirs: u32,
+        /// Schema hash of this program.
+        ours: u32,
+    },
+    /// The line broke.
+    #[error("{line}: the line failed")]
+    Line {
+        /// The line.
+        line: String,
+        /// What the system says.
+        #[source]
+        source: io::Error,
+    },
+}
+
+/// Why a session ended.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    /// The MCU stopped talking.
+    #[error("{line}: the MCU was silent for {silent_ms} ms; it turns everything off by itself")]
+    Silent {
+        /// The line.
+        line: String,
+        /// For how long.
+        silent_ms: u64,
+    },
+    /// The MCU doesn't know this session: it was reset, or another host opened one.
+    #[error(
+        "{line}: the MCU has forgotten this session: it was reset, or another program has connected to it"
+    )]
+    Forgotten {
+        /// The line.
+        line: String,
+    },
+    /// The MCU sent a message that this program can't read.
+    #[error("{line}: a message of {length} bytes passed its checksum but can't be read")]
+    Unreadable {
+        /// The line.
+        line: String,
+        /// Length of its payload.
+        length: usize,
+    },
+    /// The line broke.
+    #[error("{line}: the line failed")]
+    Line {
+        /// The line.
+        line: String,
+        /// What the system says.
+        #[source]
+        source: io::Error,
+    },
+}
+
+/// Why a request came to nothing.
+#[derive(Debug, thiserror::Error)]
+pub enum RequestError {
+    /// The MCU refused it.
+    #[error("the MCU refused `{command}`: {} (at {}, expected {}, got {})", .refusal.code, .refusal.at, .refusal.expected, .refusal.got)]
+    Refused {
+        /// The command's name.
+        command: &'static str,
+        /// Why.
+        refusal: Refusal,
+    },
+    /// The answer belongs to another command.
+    #[error("the MCU answered `{command}` with something else")]
+    WrongReply {
+        /// The command's name.
+        command: &'static str,
+    },
+    /// The session ended.
+    #[error(transparent)]
+    Session(#[from] SessionError),
+}
+
+/// News from the MCU.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Notice {
+    /// Something happened.
+    Event(Event),
+    /// Everything was turned off.
+    Fault(Fault),
+    /// A look at the rig.
+    Telemetry(Telemetry),
+}
+
+/// An open session.
+pub struct Session<T> {
+    transport: T,
+    link: Link,
+    info: HelloReply,
+    next_id: u16,
+    responses: BTreeMap<u16, Result<Reply, Refusal>>,
+    notices: VecDeque<Notice>,
+    last_fault: Option<Fault>,
+}
+
+impl<T: Transport> Session<T> {
+    /// Opens the session `number` with whatever is at the other end, waiting at most `patience`.
+    ///
+    /// # Errors
+    /// Nobody there, another version, or a broken line.
+    pub fn connect(mut transport: T, number: u32, patience: Millis) -> Result<Self, ConnectError> {
+        let line = transport.name();
+        let mut link = Link::new(transport.now());
+        let deadline = transport.now().plus(patience);
+        let mut heard = 0;
+        let mut buffer = [0; 1024];
+        let failed = |source| ConnectError::Line { line: line.clone(), source };
+        while transport.now() < deadline {
+            // A hello always fits a frame.
+            link.send_hello(number, &Hello::ours()).ok();
+            transmit(&mut transport, &mut link).map_err(failed)?;
+            let again = transport.now().plus(HELLO_EVERY).min(deadline);
+            while transport.now() < again {
+                let count = transport.receive(&mut buffer, again).map_err(failed)?;
+                heard += u64::try_from(count).unwrap_or(u64::MAX);
+                let now = transport.now();
+                let mut bytes = buffer.get(..count).unwrap_or_default();
+                while let Some(received) = link.receive(now, &mut bytes, true) {
+                    if let Received::HelloReply(session, payload) = received
+                        && session == number
+                    {
+                        let info = understand(&line, payload)?;
+                        link.open(number, now);
+                        return Ok(Self {
+                            transport,
+                            link,
+                            info,
+                            next_id: 0,
+                            responses: BTreeMap::new(),
+                            notices: VecDeque::new(),
+                            last_fault: None,
+                        });
+                    }
+                }
+            }
+        }
+        Err(ConnectError::NoAnswer { line, waited_ms: patience.0, heard })
+    }
+
+    /// What the MCU said about itself.
+    pub fn info(&self) -> &HelloReply {
+        &self.info
+    }
+
+    /// Time on this side.
+    pub fn now(&self) -> Micros {
+        self.transport.now()
+    }
+
+    /// What the link has seen.
+    pub fn link_counters(&self) -> LinkCounters {
+        self.link.counters()
+    }
+
+    /// The line, for a look at what is behind it.
+    pub fn transport(&self) -> &T {
+        &self.transport
+    }
+
+    /// Gives the line back; the MCU then misses its host and turns everything off.
+    pub fn into_transport(self) -> T {
+        self.transport
+    }
+
+    /// Sends a command without waiting for its response, which [`Self::response`] gets.
+    ///
+    /// # Errors
+    /// The session ended.
+    pub fn submit(&mut self, command: Command) -> Result<u16, SessionError> {
+        let id = self.next_id;
+        self.next_id = self.next_id.wrapping_add(1);
+        let request = Request { id, command };
+        while self.link.send(&request) == Err(SendError::Full) {
+            let soon = self.transport.now().plus(SILENCE);
+            self.pump(soon)?;
+        }
+        Ok(id)
+    }
+
+    /// Waits for the response to a submitted command.
+    ///
+    /// # Errors
+    /// The session ended.
+    pub fn response(&mut self, id: u16) -> Result<Result<Reply, Refusal>, SessionError> {
+        loop {
+            if let Some(result) = self.responses.remove(&id) {
+                return Ok(result);
+            }
+            let soon = self.transport.now().plus(SILENCE);
+            self.pump(soon)?;
+        }
+    }
+
+    /// Sends a command and waits for its reply.
+    ///
+    /// # Errors
+    /// Refused, or the session ended.
+    pub fn request(&mut self, command: Command) -> Result<Reply, RequestError> {
+        let name = name_of(&command);
+        let id = self.submit(command)?;
+        self.response(id)?.map_err(|refusal| RequestError::Refused { command: name, refusal })
+    }
+
+    /// Asks how the MCU is.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn status(&mut self) -> Result<Status, RequestError> {
+        match self.request(Command::Status)? {
+            Reply::Status(status) => Ok(status),
+            Reply::Done | Reply::Progress { .. } => Err(RequestError::WrongReply { command: "status" }),
+        }
+    }
+
+    /// The next piece of news, waiting for it until `deadline` at most.
+    ///
+    /// # Errors
+    /// The session ended.
+    pub fn notice(&mut self, deadline: Micros) -> Result<Option<Notice>, SessionError> {
+        loop {
+            if let Some(notice) = self.notices.pop_front() {
+                return Ok(Some(notice));
+            }
+            if self.transport.now() >= deadline {
+                return Ok(None);
+            }
+            self.pump(deadline)?;
+        }
+    }
+
+    /// Stops everything, and returns the time until the MCU had confirmed it.
+    ///
+    /// # Errors
+    /// The session ended before; the MCU then turns everything off after its link timeout.
+    pub fn stop(&mut self) -> Result<Micros, SessionError> {
+        let asked = self.transport.now();
+        // No room: stops are waiting to be confirmed already.
+        self.link.send_urgent(&Urgent::Stop).ok();
+        while !self.link.is_settled() {
+            let soon = self.transport.now().plus(SILENCE);
+            self.pump(soon)?;
+        }
+        Ok(Micros(self.transport.now().since(asked)))
+    }
+
+    /// Sends what is due, waits for bytes until `deadline` or until something more is due, takes what came.
+    fn pump(&mut self, deadline: Micros) -> Result<(), SessionError> {
+        let broken = |line, source| SessionError::Line { line, source };
+        let sent = transmit(&mut self.transport, &mut self.link);
+        sent.map_err(|source| broken(self.transport.name(), source))?;
+        let wake = self.link.poll_timeout(self.transport.now()).map_or(deadline, |due| due.min(deadline));
+        let mut buffer = [0; 1024];
+        let received = self.transport.receive(&mut buffer, wake);
+        let count = received.map_err(|source| broken(self.transport.name(), source))?;
+        let now = self.transport.now();
+        let mut bytes = buffer.get(..count).unwrap_or_default();
+        while let Some(received) = self.link.receive(now, &mut bytes, true) {
+            let taken = match received {
+                Received::Message(payload) => {
+                    take_report(payload, &mut self.responses, &mut self.notices).ok_or(payload.len())
+                }
+                Received::Urgent(payload) => {
+                    take_fault(payload, &mut self.last_fault, &mut self.notices).ok_or(payload.len())
+                }
+                Received::Telemetry(payload) => {
+                    let telemetry = decode_payload(payload).ok_or(payload.len());
+                    telemetry.map(|telemetry| self.notices.push_back(Notice::Telemetry(telemetry)))
+                }
+                Received::Reset => return Err(SessionError::Forgotten { line: self.transport.name() }),
+                // A late answer to a repeated hello; an MCU sends no hello of its own.
+                Received::HelloReply(..) | Received::Hello(..) => Ok(()),
+            };
+            taken.map_err(|length| SessionError::Unreadable { line: self.transport.name(), length })?;
+        }
+        let silent = now.since(self.link.last_heard());
+        if silent > SILENCE.to_micros() {
+            return Err(SessionError::Silent { line: self.transport.name(), silent_ms: silent / 1000 });
+        }
+        let sent = transmit(&mut self.transport, &mut self.link);
+        sent.map_err(|source| broken(self.transport.name(), source))
+    }
+}
+
+/// Sends every frame that is due.
+fn transmit<T: Transport>(transport: &mut T, link: &mut Link) -> io::Result<()> {
+    let mut frame = [0; MAX_ENCODED];
+    loop {
+        let length = link.poll_transmit(transport.now(), &mut frame);
+        match frame.get(..length) {
+            None | Some([]) => return Ok(()),
+            Some(bytes) => transport.send(bytes)?,
+        }
+    }
+}
+
+/// Reads an answer to a hello; the versions come first, so that they can be read whatever follows.
+fn understand(line: &str, payload: &[u8]) -> Result<HelloReply, ConnectError> {
+    let info = decode_payload::<HelloReply>(payload);
+    // Same leading fields as any HelloReply, of any version.
+    let (theirs_min, theirs, schema_hash) = match (&info, zygote_protocol::peek_versions(payload)) {
+        (Some(info), _) => (info.min, info.current, info.schema),
+        (None, Some(hello)) => (hello.min, hello.current, hello.schema),
+        (None, None) => (0, 0, 0),
+    };
+    if theirs < VERSION_MIN || theirs_min > VERSION {
+        let firmware = info.map_or_else(|| "unknown".to_owned(), |info| info.identity.firmware.to_string());
+        return Err(ConnectError::Version { line: line.to_owned(), firmware, theirs_min, theirs });
+    }
+    let differs = ConnectError::Schema { line: line.to_owned(), theirs: schema_hash, ours: schema::hash() };
+    match info {
+        Some(info) if schema_hash == schema::hash() => Ok(info),
+        Some(_) | None => Err(differs),
+    }
+}
+
+fn take_report(
+    payload: &[u8],
+    responses: &mut BTreeMap<u16, Result<Reply, Refusal>>,
+    notices: &mut VecDeque<Notice>,
+) -> Option<()> {
+    match decode_payload(payload)? {
+        Report::Response(Response { id, result }) => {
+            responses.insert(id, result);
+        }
+        Report::Event(event) => notices.push_back(Notice::Event(event)),
+    }
+    Some(())
+}
+
+/// Urgent messages may come more than once; a fault is told once.
+fn take_fault(payload: &[u8], last: &mut Option<Fault>, notices: &mut VecDeque<Notice>) -> Option<()> {
+    let fault: Fault = decode_payload(payload)?;
+    if *last != Some(fault) {
+        *last = Some(fault);
+        notices.push_back(Notice::Fault(fault));
+    }
+    Some(())
+}
+
+fn name_of(command: &Command) -> &'static str {
+    match command {
+        Command::Status => "status",
+        Command::Progress { .. } => "progress",
+        Command::Upload { .. } => "upload",
+        Command::Steps { .. } => "steps",
+        Command::Commit => "commit",
+        Command::Arm { .. } => "arm",
+        Command::Start { .. } => "start",
+        Command::Disarm => "disarm",
+        Command::Clear => "clear",
+    }
+}

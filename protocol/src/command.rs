@@ -1,0 +1,174 @@
+//! What a host asks of an MCU, and what the MCU answers.
+//!
+//! | command | allowed in | effect |
+//! |---|---|---|
+//! | `Status` | any | none |
+//! | `Progress` | any | none |
+//! | `Upload` | Idle, Loaded, Finished | forgets the old program, awaits the steps of a new one |
+//! | `Steps` | after `Upload` | stores up to four steps |
+//! | `Commit` | after all steps | checks sum, order, channels and limits; Loaded |
+//! | `Arm` | Loaded | limits in force, main switch on; Armed until its lifetime ends |
+//! | `Start` | Armed | Running |
+//! | `Disarm` | Armed, Running | everything off; Loaded |
+//! | `Clear` | Safe | a person has looked; Idle |
+
+use crate::{Fault, Limits, Micros, Millis, RefusalCode, Step};
+use heapless::{String, Vec};
+use postcard_schema::Schema;
+use serde::{Deserialize, Serialize};
+
+/// Steps in one [`Command::Steps`]: as many as surely fit one frame.
+pub const STEPS_PER_COMMAND: usize = 4;
+/// Step states in one [`Reply::Progress`].
+pub const PROGRESS_PER_REPLY: usize = 128;
+
+/// The name of a rig, as its file and its operator call it.
+pub type RigId = String<32>;
+
+/// A command with the number that its response repeats.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub struct Request {
+    /// Chosen by the host.
+    pub id: u16,
+    /// What to do.
+    pub command: Command,
+}
+
+/// What a host asks.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub enum Command {
+    /// How are you? Answered by [`Reply::Status`].
+    Status,
+    /// How far is each step, from this step on? Answered by [`Reply::Progress`].
+    Progress {
+        /// First step of interest.
+        first: u16,
+    },
+    /// A program of so many steps follows.
+    Upload {
+        /// The run's number, chosen by the host.
+        run: u32,
+        /// The rig that the program is for.
+        rig: RigId,
+        /// Number of steps.
+        steps: u16,
+        /// [`crate::program_crc`] of all steps.
+        crc: u32,
+    },
+    /// The next steps of the program.
+    Steps {
+        /// Index of the first of these steps.
+        first: u16,
+        /// The steps.
+        steps: Vec<Step, STEPS_PER_COMMAND>,
+    },
+    /// The program is complete: check it.
+    Commit,
+    /// Allow motion.
+    Arm {
+        /// Must be the program's rig.
+        rig: RigId,
+        /// Must be within the board's ceilings.
+        limits: Limits,
+        /// How long a start may be waited for.
+        lifetime: Millis,
+    },
+    /// Execute the program.
+    Start {
+        /// Must be the program's run.
+        run: u32,
+    },
+    /// Everything off; motion needs a new [`Command::Arm`].
+    Disarm,
+    /// Leave the safe state after a fault, a stop or a lost link.
+    Clear,
+}
+
+/// The answer to a [`Request`].
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub struct Response {
+    /// The request's number.
+    pub id: u16,
+    /// What came of it.
+    pub result: Result<Reply, Refusal>,
+}
+
+/// What an accepted command gives back.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub enum Reply {
+    /// Done.
+    Done,
+    /// To [`Command::Status`].
+    Status(Status),
+    /// To [`Command::Progress`].
+    Progress {
+        /// Index of the first state.
+        first: u16,
+        /// The states from there on.
+        steps: Vec<StepState, PROGRESS_PER_REPLY>,
+    },
+}
+
+/// Why a command was refused; it then changed nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub struct Refusal {
+    /// What is wrong.
+    pub code: RefusalCode,
+    /// Where: a step, channel or limit, as the code says.
+    pub at: u16,
+    /// What would have been right, where a number says it.
+    pub expected: i64,
+    /// What was given.
+    pub got: i64,
+}
+
+/// The MCU as it stands.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub struct Status {
+    /// MCU time of this status.
+    pub at: Micros,
+    /// What the MCU is doing.
+    pub state: State,
+    /// The program's run, where there is a program.
+    pub run: Option<u32>,
+    /// Why the MCU is in the safe state.
+    pub fault: Option<Fault>,
+    /// Steps opened so far.
+    pub opened: u16,
+    /// Heaters whose output is not off.
+    pub heaters_on: u16,
+    /// The main switch is closed.
+    pub main_switch: bool,
+}
+
+/// What an MCU is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub enum State {
+    /// No program.
+    Idle,
+    /// A checked program, nothing energised.
+    Loaded,
+    /// Ready to start.
+    Armed,
+    /// Executing.
+    Running,
+    /// Every step is done, nothing energised.
+    Finished,
+    /// Everything off after a fault, a stop or a lost link, until cleared.
+    Safe,
+}
+
+/// How far a step is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub enum StepState {
+    /// Not started.
+    Waiting,
+    /// The hinge is moving.
+    Moving,
+    /// The hinge is open; an SMA hinge still cools.
+    Opened,
+    /// Open and, for an SMA hinge, cooled.
+    Done,
+    /// Interrupted while moving: the angle isn't known.
+    Interrupted,
+}

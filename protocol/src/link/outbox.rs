@@ -1,0 +1,115 @@
+//! The sending half of the reliable stream: a window of packets, each kept until acknowledged.
+
+use super::round_trip::RoundTrip;
+use super::{Payload, SendError, WINDOW};
+use crate::Micros;
+use heapless::Deque;
+
+#[derive(Debug)]
+struct Packet {
+    payload: Payload,
+    /// When it went out last.
+    sent: Option<Micros>,
+    /// It went out more than once, so its acknowledgement measures nothing (Karn).
+    repeated: bool,
+}
+
+#[derive(Debug)]
+pub(super) struct Outbox {
+    window: Deque<Packet, WINDOW>,
+    /// Number of the oldest packet.
+    oldest: u8,
+    /// How many packets, from the oldest on, are out; the rest waits its turn.
+    out: usize,
+    /// The oldest packet has been gone back to on request; further requests mean the same loss.
+    gone_back: bool,
+    repeats: u32,
+}
+
+impl Outbox {
+    pub(super) const fn new() -> Self {
+        Self { window: Deque::new(), oldest: 0, out: 0, gone_back: false, repeats: 0 }
+    }
+
+    pub(super) fn clear(&mut self) {
+        let repeats = self.repeats;
+        *self = Self { repeats, ..Self::new() };
+    }
+
+    pub(super) fn room(&self) -> usize {
+        WINDOW - self.window.len()
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.window.is_empty()
+    }
+
+    /// Packets sent again so far.
+    pub(super) fn repeats(&self) -> u32 {
+        self.repeats
+    }
+
+    /// Takes a packet.
+    pub(super) fn push(&mut self, payload: Payload) -> Result<(), SendError> {
+        let packet = Packet { payload, sent: None, repeated: false };
+        self.window.push_back(packet).map_err(|_| SendError::Full)
+    }
+
+    /// Drops what the other end has: everything before `ack`. An `ack` outside the window says nothing.
+    pub(super) fn acknowledged(&mut self, ack: u8, now: Micros, round_trip: &mut RoundTrip) {
+        let count = usize::from(ack.wrapping_sub(self.oldest));
+        if count == 0 || count > self.window.len() {
+            return;
+        }
+        round_trip.progressed();
+        for _ in 0..count {
+            if let Some(Packet { sent: Some(sent), repeated: false, .. }) = self.window.pop_front() {
+                round_trip.measured(now.since(sent));
+            }
+        }
+        self.oldest = ack;
+        self.out = self.out.saturating_sub(count);
+        self.gone_back = false;
+    }
+
+    /// The other end misses what follows its last acknowledgement.
+    pub(super) fn go_back_on_request(&mut self) {
+        if !self.gone_back {
+            self.gone_back = true;
+            self.out = 0;
+        }
+    }
+
+    /// Goes back to the oldest packet when its time is over.
+    pub(super) fn check_timeout(&mut self, now: Micros, round_trip: &mut RoundTrip) {
+        if self.deadline(round_trip).is_some_and(|deadline| now >= deadline) {
+            round_trip.timed_out();
+            self.out = 0;
+            self.gone_back = false;
+        }
+    }
+
+    /// When the oldest packet is to be sent again; `None` while none is out.
+    fn deadline(&self, round_trip: &RoundTrip) -> Option<Micros> {
+        let oldest = self.window.front().filter(|_| self.out > 0)?;
+        oldest.sent.map(|sent| round_trip.deadline(sent))
+    }
+
+    /// When something is to be sent: at once, at a deadline, or not at all.
+    pub(super) fn next_time(&self, now: Micros, round_trip: &RoundTrip) -> Option<Micros> {
+        if self.out < self.window.len() { Some(now) } else { self.deadline(round_trip) }
+    }
+
+    /// The next packet to put on the wire, with its number; it counts as sent.
+    pub(super) fn next(&mut self, now: Micros) -> Option<(u8, &[u8])> {
+        let packet = self.window.iter_mut().nth(self.out)?;
+        let offset = u8::try_from(self.out).ok()?;
+        self.out += 1;
+        packet.repeated = packet.sent.is_some();
+        if packet.repeated {
+            self.repeats = self.repeats.wrapping_add(1);
+        }
+        packet.sent = Some(now);
+        Some((self.oldest.wrapping_add(offset), &packet.payload))
+    }
+}

@@ -1,0 +1,116 @@
+//! Serves a simulated board on a pseudo-terminal, in real time: any serial program can open it.
+
+use crate::board::Board;
+use crate::plant::PlantError;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fd::OwnedFd;
+use rustix::fs::{Mode, OFlags};
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+use zygote_protocol::Micros;
+
+/// Longest wait for bytes before the board's clock is moved on.
+const SLICE: Timespec = Timespec { tv_sec: 0, tv_nsec: 2_000_000 };
+
+/// Why serving ended.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// No pseudo-terminal, or it broke.
+    #[error("{what}: the pseudo-terminal failed")]
+    Terminal {
+        /// What was being done.
+        what: &'static str,
+        /// What the system says.
+        #[source]
+        source: io::Error,
+    },
+    /// The plant refused.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+}
+
+fn terminal(what: &'static str) -> impl Fn(rustix::io::Errno) -> ServeError {
+    move |errno| ServeError::Terminal { what, source: errno.into() }
+}
+
+/// A pseudo-terminal in raw mode.
+pub struct Pty {
+    master: OwnedFd,
+    /// Kept open, so that the line stays up when a program closes it.
+    _slave: OwnedFd,
+    path: PathBuf,
+}
+
+impl Pty {
+    /// Makes one.
+    ///
+    /// # Errors
+    /// [`ServeError::Terminal`].
+    pub fn open() -> Result<Self, ServeError> {
+        let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).map_err(terminal("opening"))?;
+        grantpt(&master).map_err(terminal("granting"))?;
+        unlockpt(&master).map_err(terminal("unlocking"))?;
+        // A full line must not hold up the board's clock.
+        rustix::fs::fcntl_setfl(&master, OFlags::RDWR | OFlags::NONBLOCK).map_err(terminal("unblocking"))?;
+        let name = ptsname(&master, Vec::new()).map_err(terminal("naming"))?;
+        let path = PathBuf::from(name.to_string_lossy().into_owned());
+        let slave = rustix::fs::open(&path, OFlags::RDWR | OFlags::NOCTTY, Mode::empty())
+            .map_err(terminal("opening the device"))?;
+        let mut modes = tcgetattr(&slave).map_err(terminal("reading the modes"))?;
+        modes.make_raw();
+        tcsetattr(&slave, OptionalActions::Now, &modes).map_err(terminal("setting raw mode"))?;
+        Ok(Self { master, _slave: slave, path })
+    }
+
+    /// The device to open.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Runs the board against the clock on the wall until `stop` is set.
+    ///
+    /// # Errors
+    /// The terminal broke.
+    pub fn serve(&self, board: &mut Board, stop: &AtomicBool) -> Result<(), ServeError> {
+        let (wall, start) = (Instant::now(), board.now());
+        let mut buffer = [0; 4096];
+        let mut out = Vec::new();
+        while !stop.load(Ordering::Relaxed) {
+            let mut watched = [PollFd::new(&self.master, PollFlags::IN)];
+            match poll(&mut watched, Some(&SLICE)) {
+                Ok(_) | Err(rustix::io::Errno::INTR) => {}
+                Err(errno) => return Err(terminal("waiting")(errno)),
+            }
+            let readable = watched.iter().any(|fd| fd.revents().contains(PollFlags::IN));
+            let elapsed = u64::try_from(wall.elapsed().as_micros()).unwrap_or(u64::MAX);
+            let until = Micros(start.0.saturating_add(elapsed));
+            while board.now() < until {
+                board.advance(until)?;
+            }
+            if readable {
+                let count = rustix::io::read(&self.master, &mut buffer[..]).map_err(terminal("reading"))?;
+                board.receive(buffer.get(..count).unwrap_or_default());
+            }
+            out.clear();
+            board.transmit(&mut out);
+            self.write(&out)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what the terminal takes; the rest is lost, as on a line that nobody listens to.
+    fn write(&self, mut bytes: &[u8]) -> Result<(), ServeError> {
+        while !bytes.is_empty() {
+            match rustix::io::write(&self.master, bytes) {
+                Ok(count) => bytes = bytes.get(count..).unwrap_or_default(),
+                Err(rustix::io::Errno::AGAIN) => return Ok(()),
+                Err(errno) => return Err(terminal("writing")(errno)),
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,5 @@
+//! The safety rules of `docs/src/safety.md`, by number, on the simulated board: judged by the plant's true
+//! temperatures and by the outputs, not by what the firmware says.
+
+mod host;
+mod rules;
