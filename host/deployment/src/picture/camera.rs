@@ -55,6 +55,11 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    /// The same, elsewhere.
+    pub(super) fn moved(self, by: DVec2) -> Self {
+        Self { low: self.low + by, high: self.high + by }
+    }
+
     pub(super) fn size(&self) -> DVec2 {
         (self.high - self.low).max(DVec2::ZERO)
     }
