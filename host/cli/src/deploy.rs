@@ -155,14 +155,9 @@ fn show(bar: &ProgressBar, progress: &Progress) {
 }
 
 fn describe(motion: &MotionState) -> String {
-    let mut text = format!("hinge {} {}", motion.hinge, motion.phase);
-    if let Some(celsius) = motion.temperature_c {
-        text += &format!(", {celsius:.0} °C");
-    }
-    if let Some(degrees) = motion.opening_deg {
-        text += &format!(", about {degrees:.0}°");
-    }
-    text
+    let temperature = motion.temperature_c.map(|celsius| format!(", {celsius:.0} °C")).unwrap_or_default();
+    let angle = motion.opening_deg.map(|degrees| format!(", about {degrees:.0}°")).unwrap_or_default();
+    format!("hinge {} {}{temperature}{angle}", motion.hinge, motion.phase)
 }
 
 /// Holds the true angles of the simulated hinges against those of the plan.
