@@ -3,7 +3,7 @@
 use crate::failure::{Failure, OrFail};
 use anyhow::Context;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fs, io, process};
 
 /// Writes a file beside its place and then moves it there, so that no reader ever sees half of it.
@@ -23,4 +23,35 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 pub(crate) fn say(line: impl std::fmt::Display) {
     // A reader that has gone (`| head`) wants no more lines; the work and the exit code stand without them.
     writeln!(io::stdout(), "{line}").ok();
+}
+
+/// A file that is made, or emptied, when the first byte is written to it: what fails before leaves the old one alone.
+pub(crate) struct LateFile {
+    path: PathBuf,
+    file: Option<fs::File>,
+}
+
+impl LateFile {
+    /// A file that doesn't exist yet.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self { path, file: None }
+    }
+}
+
+impl Write for LateFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.file {
+            Some(file) => file.write(bytes),
+            empty => {
+                let named = |error: io::Error| {
+                    io::Error::new(error.kind(), format!("{}: {error}", self.path.display()))
+                };
+                empty.insert(fs::File::create(&self.path).map_err(named)?).write(bytes)
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.as_mut().map_or(Ok(()), fs::File::flush)
+    }
 }

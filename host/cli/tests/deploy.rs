@@ -223,6 +223,27 @@ fn a_rig_that_asks_for_more_than_the_board_allows_is_refused() {
 }
 
 #[test]
+fn a_log_that_cannot_be_written_is_told_before_anything_moves() {
+    let (run, files) = refused("no_log", |_| {}, &["--sim", "--log", "no_such_folder/log.jsonl"]);
+    assert_eq!(run.code, 1);
+    assert!(run.errors.contains("no_such_folder/log.jsonl"), "{}", run.errors);
+    assert!(files.is_empty(), "{files:?}");
+}
+
+#[test]
+fn a_refused_run_leaves_the_log_of_the_one_before_alone() {
+    let place = Scratch::new("log_kept");
+    let rig = model("rigs/sma-bench.toml");
+    assert_eq!(deploy(&place, "i14.txt", 2, &rig, 1).code, 0);
+    let log = place.read("plan.events.jsonl");
+    place.write("hot.toml", &std::fs::read_to_string(&rig).unwrap().replace("120 degC", "180 degC"));
+    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "hot.toml"]).code, 0);
+    let run = place.zygote(&["deploy", "plan.fold", "--rig", "hot.toml", "--sim"]);
+    assert_eq!(run.code, 1, "{}", run.output);
+    assert!(place.read("plan.events.jsonl") == log);
+}
+
+#[test]
 fn the_report_is_printed_as_json_on_request() {
     let (run, _) = refused("json", |_| {}, &["--sim", "--json"]);
     assert_eq!(run.code, 0, "{}", run.errors);
