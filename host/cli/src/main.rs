@@ -10,6 +10,7 @@ mod output;
 mod picture;
 mod plan;
 mod schedule;
+mod sequence;
 mod sim;
 mod sim_rig;
 mod verb;

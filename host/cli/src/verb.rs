@@ -1,7 +1,7 @@
 //! The table of verbs.
 
 use crate::failure::Failure;
-use crate::{check, deploy, picture, plan, schedule, sim};
+use crate::{check, deploy, picture, plan, schedule, sequence, sim};
 use clap::Subcommand;
 
 /// A verb and its arguments.
@@ -11,6 +11,8 @@ pub(crate) enum Verb {
     Plan(plan::Arguments),
     /// Check that a plan breaks no rule
     Check(check::Arguments),
+    /// Print a plan's coded sequence, a line a pile, or read one back
+    Sequence(sequence::Arguments),
     /// Put the hinges of a plan in order and time for a rig
     Schedule(schedule::Arguments),
     /// Draw a plan: stack, shape, or the way between them
@@ -27,6 +29,7 @@ impl Verb {
         match self {
             Self::Plan(arguments) => plan::run(&arguments),
             Self::Check(arguments) => check::run(&arguments),
+            Self::Sequence(arguments) => sequence::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Schedule(arguments) => schedule::run(&arguments),

@@ -18,6 +18,17 @@ impl Facing {
     /// Outer side up, edge 0 on E: how the bottom panel of a pile lies before the pile is turned.
     pub(crate) const BOTTOM: Self = Self { turn: 0, up: true };
 
+    /// Outer side as the height asks for, edge 0 on E.
+    pub(crate) fn square_on(height: usize) -> Self {
+        Self { turn: 0, up: height.is_multiple_of(2) }
+    }
+
+    /// The edge that is on a side of the cell.
+    pub(crate) fn edge(self, side: Side) -> usize {
+        let quarters = side as usize + 4 - self.turn;
+        if self.up { quarters % 4 } else { (8 - quarters) % 4 }
+    }
+
     /// The side of the cell that an edge is on.
     pub(crate) fn side(self, edge: usize) -> Side {
         Side::E.turned(if self.up { self.turn + edge } else { self.turn + 4 - edge })
@@ -79,6 +90,7 @@ mod tests {
             for facing in [Facing { turn, up: true }, Facing { turn, up: false }] {
                 let corners = facing.corners([3, -2]);
                 for edge in 0..4 {
+                    assert_eq!(facing.edge(facing.side(edge)), edge);
                     let (p, q) = (corners[edge], corners[(edge + 1) % 4]);
                     let [dx, dy] = facing.side(edge).step();
                     // The middle of a side lies half a cell from the middle of the cell.

@@ -18,6 +18,7 @@ mod plan;
 mod planner;
 mod random;
 mod readers;
+mod sequence;
 mod square;
 mod surface;
 mod tree_path;
@@ -28,4 +29,7 @@ pub use hamiltonian::NoStrip;
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{PlanError, Request, plan};
 pub use readers::{Model, ModelError, ModelProblem};
+pub use sequence::{
+    Column, Difference, Layer, Mounted, Place, Sequence, SequenceError, SequenceProblem, SequenceText,
+};
 pub use surface::{Surface, SurfaceError};
