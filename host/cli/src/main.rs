@@ -6,13 +6,16 @@ mod failure;
 mod identity;
 mod input;
 mod interrupt;
+mod net;
 mod output;
 mod picture;
 mod plan;
+mod reconfigure;
 mod schedule;
 mod sequence;
 mod sim;
 mod sim_rig;
+mod tolerance;
 mod verb;
 
 use clap::Parser;

@@ -1,7 +1,7 @@
 //! The table of verbs.
 
 use crate::failure::Failure;
-use crate::{check, deploy, picture, plan, schedule, sequence, sim};
+use crate::{check, deploy, net, picture, plan, reconfigure, schedule, sequence, sim, tolerance};
 use clap::Subcommand;
 
 /// A verb and its arguments.
@@ -13,6 +13,12 @@ pub(crate) enum Verb {
     Check(check::Arguments),
     /// Print a plan's coded sequence, a line a pile, or read one back
     Sequence(sequence::Arguments),
+    /// List the hinges to move so that a stack unfolds into another shape
+    Reconfigure(reconfigure::Arguments),
+    /// Flatten a plan along its hinges, and count the panels that overlap
+    Net(net::Arguments),
+    /// Tell how far panels are off when hinges aren't exact, for the tree and for a single strip
+    Tolerance(tolerance::Arguments),
     /// Put the hinges of a plan in order and time for a rig
     Schedule(schedule::Arguments),
     /// Draw a plan: stack, shape, or the way between them
@@ -30,6 +36,9 @@ impl Verb {
             Self::Plan(arguments) => plan::run(&arguments),
             Self::Check(arguments) => check::run(&arguments),
             Self::Sequence(arguments) => sequence::run(&arguments),
+            Self::Reconfigure(arguments) => reconfigure::run(&arguments),
+            Self::Net(arguments) => net::run(&arguments),
+            Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Schedule(arguments) => schedule::run(&arguments),

@@ -4,6 +4,7 @@
 //! rig.toml -> Rig --fit--> a fitting a hinge ---+
 //!                                               +--> Schedule (steps, one a hinge) --verify--> a run
 //! plan ------> Tree --order--> hinges in order -+
+//! plan ------> Tolerance: how far panels are off, and cut edges gape, when hinges aren't exact
 //! plan ------> Kinematics --> poses of all panels --> picture (SVG)
 //! ```
 //!
@@ -16,9 +17,11 @@ mod rig;
 mod schedule;
 #[cfg(test)]
 mod testing;
+mod tolerance;
 mod tree;
 
 pub use kinematics::Kinematics;
 pub use rig::*;
 pub use schedule::*;
+pub use tolerance::{HingeErrors, SingleStripError, Spread, Tolerance, ToleranceError, single_strip};
 pub use tree::{Branch, Tree, TreeError};

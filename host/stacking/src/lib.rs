@@ -8,16 +8,19 @@
 
 mod arcs;
 mod check;
+mod cut_edges;
 mod dual;
 pub mod fold;
 mod folding_map;
 mod hamiltonian;
 mod hinges;
 mod layout;
+mod net;
 mod plan;
 mod planner;
 mod random;
 mod readers;
+mod reconfigure;
 mod sequence;
 mod square;
 mod surface;
@@ -25,10 +28,13 @@ mod tree_path;
 mod voxels;
 
 pub use check::{Figures, Report, Rule, Violation, check};
+pub use cut_edges::CutEdge;
 pub use hamiltonian::NoStrip;
+pub use net::{Net, Overlaps};
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{PlanError, Request, plan};
 pub use readers::{Model, ModelError, ModelProblem};
+pub use reconfigure::{Action, Counts, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind};
 pub use sequence::{
     Column, Difference, Layer, Mounted, Place, Sequence, SequenceError, SequenceProblem, SequenceText,
 };

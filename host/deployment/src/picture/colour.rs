@@ -30,6 +30,20 @@ pub(super) fn edge(pile: usize) -> Colour {
     oklch(0.34, 0.07, hue(pile))
 }
 
+/// The colour of a place where so many panels of a net lie on each other.
+pub(super) fn overlap(panels: usize) -> Colour {
+    oklch((0.66 - 0.06 * (panels as f64 - 2.0)).max(0.42), 0.19, 25.0)
+}
+
+/// A colour of a scale from 0 to 1, dark and bluish to bright and yellow, lit as a panel is; the inner side is duller.
+pub(super) fn scale(value: f64, outer: bool, light: f64) -> Colour {
+    let value = (value.clamp(0.0, 1.0) * STEPS).round() / STEPS;
+    let light = (light.clamp(0.0, 1.0) * STEPS).round() / STEPS;
+    let lightness = 0.40 + 0.42 * value + 0.10 * light;
+    let chroma = if outer { 0.13 } else { 0.07 };
+    oklch(lightness, chroma, 280.0 - 190.0 * value)
+}
+
 /// From OKLCH (Ottosson 2020) to sRGB.
 fn oklch(lightness: f64, chroma: f64, hue_deg: f64) -> Colour {
     let (sin, cos) = hue_deg.to_radians().sin_cos();

@@ -94,6 +94,7 @@ const STYLE: &str = "\
 path{stroke-linejoin:round;stroke-linecap:round}
 text{font-family:Inter,'Helvetica Neue',Helvetica,Arial,sans-serif;text-anchor:middle}
 .ground{fill:#f5f4f0}.head{font-size:170px;font-weight:600;fill:#2b2d31}.note{font-size:140px;fill:#6b6e75}
+.mark{font-size:120px;font-weight:600;fill:#fff}
 .rail{fill:#d9d7d0}.bar{fill:#6b6e75}
 @media(prefers-color-scheme:dark){.ground{fill:#1c1e22}.head{fill:#e8e6e1}.note{fill:#9a9da4}.rail{fill:#34373d}.bar{fill:#9a9da4}}
 ";

@@ -5,12 +5,16 @@ mod camera;
 mod colour;
 mod document;
 mod film;
+mod net;
 mod painter;
 mod scene;
 mod stage;
 mod still;
+mod tolerance;
 
 pub use animation::animation;
 pub use film::film;
+pub use net::net;
 pub use stage::{Timeline, TimelineError};
 pub use still::{both, target, zygote};
+pub use tolerance::tolerance;

@@ -49,8 +49,20 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// Paints the plates of a plan.
+    /// Paints the plates of a plan, a colour a pile.
     pub(super) fn new(plan: &Plan, plates: &[Plate]) -> Self {
+        let pile_of_panel = piles(plan);
+        let fill = |panel: usize, outer, light| colour::panel(pile_of_panel[panel], outer, light);
+        Self::filled(plan, plates, fill)
+    }
+
+    /// Paints the plates of a plan, each panel in the colour of its value on a scale from 0 to 1.
+    pub(super) fn by_value(plan: &Plan, plates: &[Plate], values: &[f64]) -> Self {
+        Self::filled(plan, plates, |panel, outer, light| colour::scale(values[panel], outer, light))
+    }
+
+    /// Paints plates; `fill` gives the colour by panel, whether its outer side shows, and light.
+    fn filled(plan: &Plan, plates: &[Plate], fill: impl Fn(usize, bool, f64) -> Colour) -> Self {
         let camera = Camera::new();
         let pile_of_panel = piles(plan);
         let mut fragments = Vec::with_capacity(plates.len());
@@ -63,7 +75,19 @@ impl Scene {
             let plate = &plates[fragment.panel];
             let stacked = plate.down != DVec3::ZERO;
             let width = if stacked { (STACKED_RIM * plan.thickness).min(RIM) } else { RIM };
-            push_shapes(&mut shapes, &fragment, pile_of_panel[fragment.panel], width, &camera);
+            let outer = fragment.normal.dot(camera.to_eye()) > 0.0;
+            let facing = if outer { fragment.normal } else { -fragment.normal };
+            // A little light from everywhere, and half-lit where the light only grazes.
+            let light = 0.5 + 0.5 * facing.dot(TO_LIGHT.normalize());
+            let fill = fill(fragment.panel, outer, light);
+            push_shapes(
+                &mut shapes,
+                &fragment,
+                fill,
+                colour::edge(pile_of_panel[fragment.panel]),
+                width,
+                &camera,
+            );
         }
         let bounds = Bounds::around(shapes.iter().flat_map(|shape| shape.runs.iter().flatten().copied()));
         Self { shapes, bounds }
@@ -71,7 +95,7 @@ impl Scene {
 }
 
 /// The pile of each panel.
-fn piles(plan: &Plan) -> Vec<usize> {
+pub(super) fn piles(plan: &Plan) -> Vec<usize> {
     let mut pile_of_panel = vec![0; plan.target.len()];
     for (number, pile) in plan.piles.iter().enumerate() {
         for &panel in &pile.panels {
@@ -99,16 +123,17 @@ fn walls(panel: usize, plate: &Plate, to_eye: DVec3) -> impl Iterator<Item = Fra
     })
 }
 
-fn push_shapes(shapes: &mut Vec<Shape>, fragment: &Fragment, pile: usize, width: f64, camera: &Camera) {
-    let outer = fragment.normal.dot(camera.to_eye()) > 0.0;
-    let facing = if outer { fragment.normal } else { -fragment.normal };
-    // A little light from everywhere, and half-lit where the light only grazes.
-    let light = 0.5 + 0.5 * facing.dot(TO_LIGHT.normalize());
-    let fill = colour::panel(pile, outer, light);
+fn push_shapes(
+    shapes: &mut Vec<Shape>,
+    fragment: &Fragment,
+    fill: Colour,
+    rim: Colour,
+    width: f64,
+    camera: &Camera,
+) {
     let points: Vec<_> = fragment.corners.iter().map(|corner| camera.project(*corner)).collect();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive width")]
     let width = (width * 1e3).round().max(1.0) as u32;
-    let rim = colour::edge(pile);
     if fragment.rim.iter().all(|rim| *rim) {
         shapes.push(Shape { paint: Paint { fill: Some(fill), stroke: rim, width }, runs: vec![points] });
         return;

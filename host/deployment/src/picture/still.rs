@@ -50,7 +50,7 @@ fn piles(plan: &Plan) -> String {
     }
 }
 
-type Caption = [String; 2];
+pub(super) type Caption = [String; 2];
 
 fn zygote_caption(plan: &Plan) -> Caption {
     let height = plan.piles.first().map_or(0, |pile| pile.panels.len());
@@ -65,15 +65,16 @@ fn target_caption(plan: &Plan) -> Caption {
 }
 
 fn target_scene(plan: &Plan) -> Scene {
-    let plates: Vec<_> = plan
-        .target
-        .iter()
-        .map(|panel| Plate {
-            corners: panel.map(|corner| DVec3::from_array(corner.map(f64::from))),
-            down: DVec3::ZERO,
-        })
-        .collect();
-    Scene::new(plan, &plates)
+    Scene::new(plan, &target_plates(plan))
+}
+
+/// The panels of the target.
+pub(super) fn target_plates(plan: &Plan) -> Vec<Plate> {
+    let plates = plan.target.iter().map(|panel| Plate {
+        corners: panel.map(|corner| DVec3::from_array(corner.map(f64::from))),
+        down: DVec3::ZERO,
+    });
+    plates.collect()
 }
 
 fn zygote_scene(plan: &Plan) -> Result<Scene, TreeError> {
@@ -102,7 +103,7 @@ pub(super) fn scale_for(size: DVec2, around: DVec2, largest: DVec2) -> f64 {
         .min(LARGEST_PANEL)
 }
 
-fn side_by_side(plan: &Plan, scenes: &[(Scene, Caption)]) -> String {
+pub(super) fn side_by_side(plan: &Plan, scenes: &[(Scene, Caption)]) -> String {
     // Wide enough for the captions, too.
     const NARROWEST: f64 = 230.0;
     let sizes = || scenes.iter().map(|(scene, _)| scene.bounds.size());

@@ -16,8 +16,8 @@ pub use error::RigError;
 pub use fit::Fitting;
 pub use places::Place;
 pub use quantity::{
-    Amps, Celsius, DegreesPerSecond, Joules, Kelvins, KelvinsPerWatt, NewtonMetres, Ohms, QuantityError,
-    Seconds, Volts, WattsPerKelvin, WattsPerSquareMetreKelvin,
+    Amps, Celsius, Degrees, DegreesPerSecond, Joules, Kelvins, KelvinsPerWatt, Millimetres, NewtonMetres,
+    Ohms, QuantityError, Seconds, Volts, WattsPerKelvin, WattsPerSquareMetreKelvin,
 };
 pub use settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
 pub use sim::{Sim, SmaPlant};

@@ -121,6 +121,16 @@ quantity! {
     /// Angular speed in degrees per second.
     DegreesPerSecond, "deg/s", "an angular speed with its unit, as in \"90 deg/s\"", [("deg/s", 1.0)]
 }
+quantity! {
+    /// Angle in degrees.
+    Degrees, "deg", "an angle with its unit, as in \"1 deg\" or \"0.02 rad\"",
+    [("deg", 1.0), ("°", 1.0), ("rad", 180.0 / std::f64::consts::PI)]
+}
+quantity! {
+    /// Length in millimetres.
+    Millimetres, "mm", "a length with its unit, as in \"0.1 mm\" or \"100 um\"",
+    [("mm", 1.0), ("um", 1e-3), ("µm", 1e-3), ("cm", 10.0)]
+}
 
 #[cfg(test)]
 mod tests {

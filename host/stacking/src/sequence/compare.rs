@@ -88,13 +88,15 @@ impl SequenceText {
     }
 }
 
-/// A layer in the words of the grammar.
+/// A layer in the words of the grammar, but for a missing hinge, which is plain words.
 fn word(layer: &Layer) -> String {
-    let root = if layer.root { "*" } else { "" };
-    let bridges: String = layer.bridges.iter().map(|bridge| format!("[{bridge}]")).collect();
-    let above = layer.above.map_or_else(|| "no hinge above".to_owned(), |above| above.to_string());
-    if layer.above.is_none() && (layer.root || !layer.bridges.is_empty()) {
-        return format!("{root}{bridges} and no hinge above");
+    let mut word = if layer.root { "*".to_owned() } else { String::new() };
+    for bridge in &layer.bridges {
+        word += &format!("[{bridge}]");
     }
-    format!("{root}{bridges}{above}")
+    match layer.above {
+        Some(above) => word + &above.to_string(),
+        None if word.is_empty() => "no hinge above".into(),
+        None => word + " and no hinge above",
+    }
 }
