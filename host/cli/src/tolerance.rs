@@ -100,16 +100,14 @@ fn ratio(tree: f64, strip: f64) -> f64 {
 
 /// The lines about one kind of error, side by side.
 fn lines(what: &str, tree: Spread, strip: Spread, scale: f64, samples: usize) {
-    let all: [(&str, fn(&Spread) -> f64); 5] = [
-        ("first order, rms", |spread| spread.first_order_rms),
-        ("samples, rms", |spread| spread.rms),
-        ("  50th percentile", |spread| spread.median),
-        ("  95th percentile", |spread| spread.percentile_95),
-        ("  greatest", |spread| spread.greatest),
-    ];
+    let figures = |spread: &Spread| {
+        let Spread { first_order_rms, rms, median, percentile_95, greatest } = *spread;
+        [first_order_rms, rms, median, percentile_95, greatest].map(|figure| figure * scale)
+    };
+    let names = ["first order, rms", "samples, rms", "  50th percentile", "  95th percentile", "  greatest"];
+    let rows = names.into_iter().zip(figures(&tree).into_iter().zip(figures(&strip)));
     say(what);
-    for (name, figure) in all.into_iter().take(if samples == 0 { 1 } else { 5 }) {
-        let (t, p) = (figure(&tree) * scale, figure(&strip) * scale);
+    for (name, (t, p)) in rows.take(if samples == 0 { 1 } else { names.len() }) {
         say(format_args!("  {name:<26}{t:>14.3}{p:>14.3}{:>8.2}", ratio(t, p)));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::Place;
 use super::{Layer, Sequence, SequenceText};
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 /// A place at which a text says something else than a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -92,7 +92,8 @@ impl SequenceText {
 fn word(layer: &Layer) -> String {
     let mut word = if layer.root { "*".to_owned() } else { String::new() };
     for bridge in &layer.bridges {
-        word += &format!("[{bridge}]");
+        // Writing to a String can't fail.
+        let _infallible = write!(word, "[{bridge}]");
     }
     match layer.above {
         Some(above) => word + &above.to_string(),
