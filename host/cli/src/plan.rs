@@ -73,7 +73,7 @@ pub(crate) fn summary(figures: &Figures) -> String {
     let Figures { panels, piles, height, grid: [across, along], bridges, high_degree_panels, .. } = figures;
     let [by_90, by_180, by_270] = figures.openings;
     format!(
-        "{panels} panels in {piles} piles of {height} on {across} x {along} cells\n\
+        "N = {panels} panels, K = {piles} piles, {height} high, on {across} x {along} cells\n\
          bridges: {bridges}, high-degree panels: {high_degree_panels}, package-volume ratio: {:.1}, \
          hinges opening by 90/180/270 degrees: {by_90}/{by_180}/{by_270}",
         figures.expansion_ratio

@@ -31,7 +31,8 @@ impl Stack {
         let mut facing = vec![Facing::BOTTOM; order.len()];
         let piles = (0..count).map(|number| {
             let start = offset + number * height;
-            let mut pile: Vec<usize> = (start..start + height).map(|place| order[place % order.len()]).collect();
+            let mut pile: Vec<usize> =
+                (start..start + height).map(|place| order[place % order.len()]).collect();
             if number % 2 == 1 {
                 pile.reverse();
             }

@@ -109,7 +109,8 @@ impl Dual {
             match partner {
                 Some(other) if partners[*other] == Some(number) => {
                     let (here, there) = (&meeting[number], &meeting[*other]);
-                    self.across[here.panel][here.edge] = Some(Across { panel: there.panel, edge: there.edge });
+                    self.across[here.panel][here.edge] =
+                        Some(Across { panel: there.panel, edge: there.edge });
                 }
                 _ => return Err(crossing(surface, meeting)),
             }

@@ -17,7 +17,7 @@ pub(crate) struct Layout {
 }
 
 /// The box of a set of cells: area first, then half its circumference.
-pub(crate) fn compactness<'a>(cells: impl Iterator<Item = &'a [i32; 2]> + Clone) -> (i32, i32) {
+pub(crate) fn compactness<'a>(cells: &(impl Iterator<Item = &'a [i32; 2]> + Clone)) -> (i32, i32) {
     let [across, along] = [0, 1].map(|axis| {
         let values = || cells.clone().map(|cell| cell[axis]);
         values().max().unwrap_or(0) - values().min().unwrap_or(0) + 1
@@ -66,7 +66,7 @@ pub(crate) fn grow(piles: usize, joints: &[Joint], random: &mut Random) -> Resul
         random.shuffle(&mut list);
         // Mostly the most compact way; now and then any, so that another try comes out differently.
         if random.below(4) > 0 {
-            list.sort_by_key(|way| compactness(taken.iter().chain([&way.cell])));
+            list.sort_by_key(|way| compactness(&taken.iter().chain([&way.cell])));
         }
         let Some(way) = list.first() else { return Err(placed.len()) };
         placed.insert(pile, (way.cell, way.turn));

@@ -9,6 +9,7 @@ use crate::plan::{Pile, Plan, Source};
 use crate::random::Random;
 use crate::readers::Model;
 use crate::tree_path;
+use std::cmp::Ordering;
 
 /// Strips that are tried, each from another seed, until the piles of one find room.
 const STRIPS: u64 = 16;
@@ -16,6 +17,8 @@ const STRIPS: u64 = 16;
 const CUT_BUDGET: usize = 4_000_000;
 /// Layouts tried for each way of cutting a strip.
 const LAYOUTS: usize = 24;
+/// Panels looked at to compare the depths of layouts that are equally compact.
+const DEPTH_BUDGET: usize = 2_000_000;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -154,12 +157,23 @@ struct Search<'a> {
     layouts: usize,
     most: usize,
     panels: usize,
+    depths: usize,
 }
 
 impl<'a> Search<'a> {
     fn new(dual: &'a Dual, request: &Request, panels: usize) -> Self {
         let random = Random::new(request.seed, 1 << 32);
-        Self { dual, piles: request.piles, random, best: None, cuts: 0, layouts: 0, most: 1, panels }
+        Self {
+            dual,
+            piles: request.piles,
+            random,
+            best: None,
+            cuts: 0,
+            layouts: 0,
+            most: 1,
+            panels,
+            depths: 0,
+        }
     }
 
     /// Tries to cut a strip at many places and to lay out the piles of each.
@@ -187,11 +201,13 @@ impl<'a> Search<'a> {
                     continue;
                 }
             };
-            let (area, rim) = layout::compactness(layout.cells.iter());
-            let beaten = |best: &Found| (best.score.0, best.score.1) < (area, rim);
-            if self.best.as_ref().is_some_and(beaten) {
+            let (area, rim) = layout::compactness(&layout.cells.iter());
+            let compared = self.best.as_ref().map(|best| (area, rim).cmp(&(best.score.0, best.score.1)));
+            let affordable = self.depths * self.panels < DEPTH_BUDGET;
+            if compared == Some(Ordering::Greater) || (compared == Some(Ordering::Equal) && !affordable) {
                 continue;
             }
+            self.depths += 1;
             let score = (area, rim, depth(stack, &layout.bridges));
             if self.best.as_ref().is_none_or(|best| score < best.score) {
                 self.best = Some(Found { stack: stack.clone(), layout, score });
@@ -224,9 +240,8 @@ impl Found {
             }
         }
         let hinges = hinges::of(&stack.piles, &layout.bridges, &facing, &target, &model.dual);
-        let root = request
-            .root
-            .unwrap_or_else(|| tree_path::centre(&tree_path::joined(target.len(), &hinges)).0);
+        let root =
+            request.root.unwrap_or_else(|| tree_path::centre(&tree_path::joined(target.len(), &hinges)).0);
         let cells = layout.cells.into_iter();
         let piles = cells.zip(stack.piles).map(|(cell, panels)| Pile { cell, panels }).collect();
         Plan {

@@ -36,7 +36,9 @@ pub enum SurfaceError {
         edge: String,
     },
     /// Sheets that pass through each other.
-    #[error("sheets cross at the edge {edge}: {faces}; expected one or two faces, or four that pair by their inner sides")]
+    #[error(
+        "sheets cross at the edge {edge}: {faces}; expected one or two faces, or four that pair by their inner sides"
+    )]
     Crossing {
         /// The lattice edge.
         edge: String,

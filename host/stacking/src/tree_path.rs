@@ -52,8 +52,9 @@ mod tests {
 
     #[test]
     fn the_centre_of_a_strip_is_its_middle() {
-        let strip: Vec<Vec<usize>> =
-            (0..7).map(|n: usize| [n.wrapping_sub(1), n + 1].into_iter().filter(|m| *m < 7).collect()).collect();
+        let strip: Vec<Vec<usize>> = (0..7)
+            .map(|n: usize| [n.wrapping_sub(1), n + 1].into_iter().filter(|m| *m < 7).collect())
+            .collect();
         assert_eq!(centre(&strip), (3, 3));
         assert_eq!(centre(&[vec![]]), (0, 0));
     }

@@ -57,18 +57,19 @@ impl Document {
         }
         let (vertex_count, edge_count) = (2 * panels + 2, 3 * panels + 1);
         let vertices = format!("numbers below 2N+2 = {vertex_count}");
-        let faces =
-            reader.each("faces_vertices", face_list, &format!("4 vertex {vertices}"), |v| indices(v, vertex_count));
+        let faces = reader
+            .each("faces_vertices", face_list, &format!("4 vertex {vertices}"), |v| indices(v, vertex_count));
         let edge_list = reader.array(file, "", "edges_vertices", Some(edge_count))?;
-        let edges =
-            reader.each("edges_vertices", edge_list, &format!("2 vertex {vertices}"), |v| indices(v, vertex_count));
+        let edges = reader
+            .each("edges_vertices", edge_list, &format!("2 vertex {vertices}"), |v| indices(v, vertex_count));
         let face_lists = reader.array(file, "", "edges_faces", Some(edge_count))?;
         let (hinge_faces, cut_faces) = face_lists.split_at(panels - 1);
         let pairs =
             reader.each("edges_faces", hinge_faces, "2 panel numbers in range", |v| indices::<2>(v, panels));
-        let singles = reader.each_from(panels - 1, "edges_faces", cut_faces, "1 panel number in range", |v| {
-            indices::<1>(v, panels)
-        });
+        let singles =
+            reader.each_from(panels - 1, "edges_faces", cut_faces, "1 panel number in range", |v| {
+                indices::<1>(v, panels)
+            });
         let target = reader.frame(file, "", panels)?;
         let zygote = reader.frame(frame, ZYGOTE, panels)?;
         let hinge_list = reader.array(file, "", "zygote:hinges", Some(panels - 1))?;
@@ -76,13 +77,15 @@ impl Document {
             hinge_entry(v, panels)
         });
         let pile_list = reader.array(file, "", "zygote:piles", None)?;
-        let piles = reader.each("zygote:piles", pile_list, "a cell of 2 integers and panel numbers in range", |v| {
-            pile_entry(v, panels)
-        });
+        let piles =
+            reader.each("zygote:piles", pile_list, "a cell of 2 integers and panel numbers in range", |v| {
+                pile_entry(v, panels)
+            });
         let face_orders = reader.array(frame, ZYGOTE, "faceOrders", None)?.clone();
         let thickness = file["zygote:thickness"].as_f64().filter(|t| *t > 0.0);
         let sound = reader.sound;
-        report.require(!piles.is_empty() || !sound, Rule::Count, || ("zygote:piles".into(), "no piles".into()));
+        report
+            .require(!piles.is_empty() || !sound, Rule::Count, || ("zygote:piles".into(), "no piles".into()));
         report.require(thickness.is_some(), Rule::Shape, || {
             ("zygote:thickness".into(), format!("expected t/L above 0, found {}", file["zygote:thickness"]))
         });
@@ -112,7 +115,8 @@ fn hinge_entry(value: &Value, panels: usize) -> Option<HingeEntry> {
     let letter = value["side"].as_str()?;
     let side = Side::ALL.into_iter().find(|side| side.letter() == letter)?;
     let opening = &value["opening_deg"];
-    let opening_deg = [90, 180, 270].into_iter().find(|degrees| opening.as_f64() == Some(f64::from(*degrees)))?;
+    let opening_deg =
+        [90, 180, 270].into_iter().find(|degrees| opening.as_f64() == Some(f64::from(*degrees)))?;
     Some(HingeEntry { kind, panels: indices(&value["panels"], panels)?, side, opening_deg })
 }
 
@@ -172,13 +176,12 @@ impl Reader<'_> {
     ) -> Vec<T> {
         let mut found = Vec::with_capacity(list.len());
         for (number, value) in list.iter().enumerate() {
-            match read(value) {
-                Some(entry) => found.push(entry),
-                None => {
-                    self.sound = false;
-                    let message = format!("expected {expected}, found {}", shortened(value));
-                    self.report.add(Rule::Shape, format!("{key}[{}]", first + number), message);
-                }
+            if let Some(entry) = read(value) {
+                found.push(entry);
+            } else {
+                self.sound = false;
+                let message = format!("expected {expected}, found {}", shortened(value));
+                self.report.add(Rule::Shape, format!("{key}[{}]", first + number), message);
             }
         }
         found
@@ -188,7 +191,8 @@ impl Reader<'_> {
         let (vertex_count, edge_count) = (2 * panels + 2, 3 * panels + 1);
         let key = |name: &str| format!("{prefix}{name}");
         let points = self.array(frame, prefix, "vertices_coords", Some(vertex_count))?;
-        let points = self.each(&key("vertices_coords"), points, "3 whole numbers: on the lattice", lattice_point);
+        let points =
+            self.each(&key("vertices_coords"), points, "3 whole numbers: on the lattice", lattice_point);
         let angles = self.array(frame, prefix, "edges_foldAngle", Some(edge_count))?;
         let angles = self.each(&key("edges_foldAngle"), angles, "a number", Value::as_f64);
         let letters = self.array(frame, prefix, "edges_assignment", Some(edge_count))?;
@@ -201,5 +205,9 @@ impl Reader<'_> {
 fn shortened(value: &Value) -> String {
     const LONGEST: usize = 60;
     let text = value.to_string();
-    if text.chars().count() <= LONGEST { text } else { text.chars().take(LONGEST).chain("...".chars()).collect() }
+    if text.chars().count() <= LONGEST {
+        text
+    } else {
+        text.chars().take(LONGEST).chain("...".chars()).collect()
+    }
 }

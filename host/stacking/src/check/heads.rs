@@ -52,6 +52,9 @@ fn fixed(frame: &Value, prefix: &str, keys: &[(&str, Value)], attribute: &str, r
     let attributes = &frame["frame_attributes"];
     let has = attributes.as_array().is_some_and(|list| list.iter().any(|entry| entry == attribute));
     report.require(has, Rule::Head, || {
-        (format!("{prefix}frame_attributes"), format!("expected an array with \"{attribute}\", found {attributes}"))
+        (
+            format!("{prefix}frame_attributes"),
+            format!("expected an array with \"{attribute}\", found {attributes}"),
+        )
     });
 }

@@ -19,7 +19,10 @@ pub(super) fn check(
     for (index, entry) in document.hinges.iter().enumerate() {
         let panels = &document.edge_faces[index];
         report.require(entry.panels == panels[..], Rule::Hinge, || {
-            (format!("zygote:hinges[{index}]"), format!("panels {:?}, edges_faces has {panels:?}", entry.panels))
+            (
+                format!("zygote:hinges[{index}]"),
+                format!("panels {:?}, edges_faces has {panels:?}", entry.panels),
+            )
         });
     }
     for joint in joints {
@@ -36,7 +39,9 @@ fn check_place(document: &Document, zygote: &Frame<'_>, stack: &Stack, joint: &J
     let here = || format!("zygote:hinges[{hinge}]");
     let ((cell_a, height_a), (cell_b, height_b)) = (stack[a], stack[b]);
     let (into_a, into_b) = (zygote.into(a, side_a), zygote.into(b, side_b));
-    let Some(side) = Side::ALL.into_iter().find(|side| side.step() == [-into_a[0], -into_a[1]]) else { return };
+    let Some(side) = Side::ALL.into_iter().find(|side| side.step() == [-into_a[0], -into_a[1]]) else {
+        return;
+    };
     report.require(entry.side == side, Rule::Side, || {
         (here(), format!("stated {}, the coordinates give {}", entry.side.letter(), side.letter()))
     });
@@ -83,7 +88,8 @@ fn count(document: &Document, joints: &[Joint], report: &mut Report) {
     for panel in joints.iter().flat_map(|joint| joint.panels) {
         degree[panel] += 1;
     }
-    let bridges = joints.iter().filter(|joint| document.hinges[joint.hinge].kind == HingeKind::Bridge).count();
+    let bridges =
+        joints.iter().filter(|joint| document.hinges[joint.hinge].kind == HingeKind::Bridge).count();
     let folds = document.hinges.iter().filter(|entry| entry.kind == HingeKind::Fold);
     let folded: BTreeSet<[usize; 2]> = folds.map(|entry| entry.panels).collect();
     let pairs = document.piles.iter().flat_map(|pile| pile.panels.windows(2));
@@ -110,7 +116,8 @@ pub(super) fn check_angle(
     let stated = frame.angles[index];
     let agrees = (stated - f64::from(computed)).abs() < f64::EPSILON && allowed.contains(&computed);
     report.require(agrees, Rule::FoldAngle, || {
-        let message = format!("stated {stated}, the coordinates give {computed}, expected one of {allowed:?}");
+        let message =
+            format!("stated {stated}, the coordinates give {computed}, expected one of {allowed:?}");
         (format!("{}edges_foldAngle[{index}]", frame.prefix), message)
     });
     let letter = match computed {

@@ -36,7 +36,9 @@ fn whole(value: &Value) -> Option<i32> {
 /// A cell: two integers, far from the limits of 32 bits.
 pub(super) fn cell(value: &Value) -> Option<[i32; 2]> {
     let [x, y] = value.as_array()?.as_slice() else { return None };
-    let near = |value: &Value| value.as_i64().and_then(|c| i32::try_from(c).ok()).filter(|c| f64::from(*c).abs() < FAR);
+    let near = |value: &Value| {
+        value.as_i64().and_then(|c| i32::try_from(c).ok()).filter(|c| f64::from(*c).abs() < FAR)
+    };
     Some([near(x)?, near(y)?])
 }
 

@@ -56,7 +56,10 @@ fn require_connected(mut alone: BTreeMap<[i32; 2], usize>, first: [i32; 2], repo
         }
     }
     if let Some((cell, pile)) = alone.pop_first() {
-        let message = format!("cell {cell:?} doesn't hang together with the cell of pile 0, nor do {} more", alone.len());
+        let message = format!(
+            "cell {cell:?} doesn't hang together with the cell of pile 0, nor do {} more",
+            alone.len()
+        );
         report.add(Rule::Cells, format!("zygote:piles[{pile}]"), message);
     }
 }

@@ -48,12 +48,7 @@ fn edge(frame: &Frame<'_>, panel: usize, side: usize) -> [[i32; 3]; 2] {
 }
 
 /// The panels met first on turning about an edge from a panel towards its inner side.
-fn partners(
-    frame: &Frame<'_>,
-    found: &[(usize, usize)],
-    into_a: [i32; 3],
-    normal_a: [i32; 3],
-) -> Vec<usize> {
+fn partners(frame: &Frame<'_>, found: &[(usize, usize)], into_a: [i32; 3], normal_a: [i32; 3]) -> Vec<usize> {
     let turn = [normal_a.map(|c| -c), into_a.map(|c| -c), normal_a];
     let standing = |way: [i32; 3]| -> Vec<usize> {
         let there = found.iter().filter(|(panel, side)| frame.into(*panel, *side) == way);

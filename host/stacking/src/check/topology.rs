@@ -23,7 +23,8 @@ pub(super) fn check(document: &Document, report: &mut Report) -> Vec<Joint> {
         // The edge runs as in its first panel, and so against its second.
         for (panel, (start, end)) in panels.iter().zip([(u, v), (v, u)]) {
             let face = document.faces[*panel];
-            let side_from = |from: usize, to: usize| (0..4).find(|i| face[*i] == from && face[(i + 1) % 4] == to);
+            let side_from =
+                |from: usize, to: usize| (0..4).find(|i| face[*i] == from && face[(i + 1) % 4] == to);
             let Some(side) = side_from(start, end) else {
                 let reversed = side_from(end, start).is_some();
                 let rule = if reversed { Rule::Orientation } else { Rule::Edge };
@@ -61,7 +62,10 @@ pub(super) fn check(document: &Document, report: &mut Report) -> Vec<Joint> {
     }
     let count = used.iter().filter(|used| **used).count();
     report.require(count == used.len(), Rule::CutSurface, || {
-        let message = format!("{count} vertices in use, expected 2N+2 = {}: panels share one without a hinge", used.len());
+        let message = format!(
+            "{count} vertices in use, expected 2N+2 = {}: panels share one without a hinge",
+            used.len()
+        );
         ("faces_vertices".into(), message)
     });
     joints

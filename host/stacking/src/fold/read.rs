@@ -12,7 +12,7 @@ const SHOWN_PER_RULE: usize = 3;
 #[derive(Debug, thiserror::Error)]
 pub enum FoldError {
     /// No JSON.
-    #[error("not JSON: {0}")]
+    #[error("not JSON")]
     NotJson(#[from] serde_json::Error),
     /// JSON, but no object.
     #[error("expected a JSON object, found {found}")]
@@ -24,7 +24,7 @@ pub enum FoldError {
     #[error("breaks the rules of a plan:\n  {}", .0.lines(SHOWN_PER_RULE).join("\n  "))]
     BreaksRules(Box<Report>),
     /// A source that lacks something.
-    #[error("zygote:source: {0}")]
+    #[error("zygote:source: expected model, box, seed and program")]
     Source(#[source] serde_json::Error),
 }
 

@@ -49,8 +49,7 @@ fn keys(plan: &Plan, cut: &CutSurface) -> Vec<(&'static str, Value)> {
 }
 
 fn zygote_frame(plan: &Plan, cut: &CutSurface) -> Value {
-    let flat: Vec<[[i32; 3]; 4]> =
-        plan.zygote.iter().map(|quad| quad.map(|[x, y]| [x, y, 0])).collect();
+    let flat: Vec<[[i32; 3]; 4]> = plan.zygote.iter().map(|quad| quad.map(|[x, y]| [x, y, 0])).collect();
     let mut frame = json!({
         "frame_title": "zygote",
         "frame_classes": ["foldedForm"],

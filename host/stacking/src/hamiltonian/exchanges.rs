@@ -32,17 +32,11 @@ pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -
         let joined = (2..=LONGEST).find_map(|longest| {
             starts.iter().find_map(|start| Walk::new(graph, cover, &cycles, longest).falling(*start))
         });
-        let exchange = match joined {
-            Some(exchange) => {
-                kicks = 0;
-                Some(exchange)
-            }
-            None => {
-                kicks += 1;
-                let start = stroll(graph, member, random);
-                Walk::new(graph, cover, &cycles, 2 + random.below(3)).level(start, random)
-            }
-        };
+        kicks = if joined.is_some() { 0 } else { kicks + 1 };
+        let exchange = joined.or_else(|| {
+            let start = stroll(graph, member, random);
+            Walk::new(graph, cover, &cycles, 2 + random.below(3)).level(start, random)
+        });
         if let Some((removed, added)) = exchange {
             cover.exchange(&removed, &added);
             cycles.renew(cover, &removed);
@@ -94,7 +88,7 @@ impl<'a> Walk<'a> {
 
     /// An exchange from `start` that makes the cycles fewer.
     fn falling(mut self, start: usize) -> Option<(Edges, Edges)> {
-        self.from(start).then(|| (self.removed, self.added))
+        self.from(start).then_some((self.removed, self.added))
     }
 
     /// An exchange from `start` that leaves their number as it is (or makes them fewer, should one turn up).

@@ -35,7 +35,9 @@ pub(crate) struct Strip {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoStrip {
     /// Panels at dead ends; a strip has two ends.
-    #[error("{count} panels have one neighbour only (panels {first:?} ...), a strip through all panels has two ends")]
+    #[error(
+        "{count} panels have one neighbour only (panels {first:?} ...), a strip through all panels has two ends"
+    )]
     DeadEnds {
         /// How many.
         count: usize,
@@ -43,7 +45,9 @@ pub enum NoStrip {
         first: Vec<usize>,
     },
     /// The panels are coloured like a chess board, and a strip changes colour at every step.
-    #[error("coloured like a chess board the surface has {dark} and {light} panels, a strip needs numbers that differ by one at most")]
+    #[error(
+        "coloured like a chess board the surface has {dark} and {light} panels, a strip needs numbers that differ by one at most"
+    )]
     Colours {
         /// Panels of one colour.
         dark: usize,
@@ -51,7 +55,9 @@ pub enum NoStrip {
         light: usize,
     },
     /// The search ended without success, which proves nothing.
-    #[error("no strip through all {panels} panels found in {attempts} attempts: the best had {pieces} pieces; another seed may do")]
+    #[error(
+        "no strip through all {panels} panels found in {attempts} attempts: the best had {pieces} pieces; another seed may do"
+    )]
     NotFound {
         /// Panels of the surface.
         panels: usize,

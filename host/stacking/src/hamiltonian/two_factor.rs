@@ -40,7 +40,8 @@ fn greedy(graph: &Graph<'_>, random: &mut Random) -> Cover {
     let mut free: Vec<usize> = (0..graph.panels()).map(|node| graph.neighbours(node).len()).collect();
     let lot: Vec<u64> = free.iter().map(|_| random.next()).collect();
     // Choice of a node: edges that can still be taken, less those that it needs.
-    let choice = |free: &[usize], cover: &Cover, node: usize| (free[node] + 2 - cover.lacks(node), lot[node], node);
+    let choice =
+        |free: &[usize], cover: &Cover, node: usize| (free[node] + 2 - cover.lacks(node), lot[node], node);
     let mut queue: BTreeSet<(usize, u64, usize)> =
         (0..free.len()).map(|node| choice(&free, &cover, node)).collect();
     while let Some((_, _, node)) = queue.pop_first() {

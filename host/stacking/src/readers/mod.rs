@@ -94,7 +94,7 @@ fn read(path: &Path, voxel_size: Option<f64>) -> Result<Model, ModelProblem> {
 
 fn text(bytes: &[u8]) -> Result<&str, ModelProblem> {
     str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
-        ModelProblem::NotText { line }
+        let before = bytes[..error.valid_up_to()].split(|byte| *byte == b'\n');
+        ModelProblem::NotText { line: before.count() }
     })
 }

@@ -8,8 +8,7 @@ use crate::surface::SurfaceError;
 pub struct ModelError {
     /// The file.
     pub file: String,
-    /// What is wrong with it.
-    #[source]
+    /// What is wrong with it; part of the message, so no cause of its own.
     pub problem: ModelProblem,
 }
 
@@ -17,7 +16,9 @@ pub struct ModelError {
 #[derive(Debug, thiserror::Error)]
 pub enum ModelProblem {
     /// The extension names no format that is known.
-    #[error("unknown format '.{extension}', expected .txt (voxel text), .obj (quad mesh) or .stl (closed mesh)")]
+    #[error(
+        "unknown format '.{extension}', expected .txt (voxel text), .obj (quad mesh) or .stl (closed mesh)"
+    )]
     UnknownFormat {
         /// What was found.
         extension: String,
@@ -103,7 +104,9 @@ pub enum ModelProblem {
         expected: &'static str,
     },
     /// A vertex between the lattice points.
-    #[error("line {line}: vertex coordinate {found}, expected a whole number: vertices lie on the integer lattice")]
+    #[error(
+        "line {line}: vertex coordinate {found}, expected a whole number: vertices lie on the integer lattice"
+    )]
     OffLattice {
         /// The line.
         line: usize,
@@ -153,7 +156,9 @@ pub enum ModelProblem {
         to: String,
     },
     /// No voxel's centre is inside.
-    #[error("no voxel of size {size} has its centre inside the mesh, whose box is {bounds}: expected a smaller size")]
+    #[error(
+        "no voxel of size {size} has its centre inside the mesh, whose box is {bounds}: expected a smaller size"
+    )]
     TooCoarse {
         /// The voxel size.
         size: f64,

@@ -25,7 +25,9 @@ pub(super) fn read(text: &str) -> Result<Surface, ModelProblem> {
                 lines.push(line);
             }
             Some(word) if IGNORED.contains(&word) => {}
-            Some(_) => return Err(bad_line(line, whole, "a statement of an OBJ mesh: v, f, vn, vt, o, g, s, ...")),
+            Some(_) => {
+                return Err(bad_line(line, whole, "a statement of an OBJ mesh: v, f, vn, vt, o, g, s, ..."));
+            }
         }
     }
     if quads.is_empty() {
@@ -47,7 +49,8 @@ fn vertex(line: usize, whole: &str, words: &[&str]) -> Result<Point, ModelProble
     for (place, word) in point.iter_mut().zip([x, y, z]) {
         let value: f64 =
             word.parse().map_err(|_| bad_line(line, whole, "v with three coordinates that are numbers"))?;
-        *place = lattice(value).ok_or_else(|| ModelProblem::OffLattice { line, found: (*word).to_string() })?;
+        *place =
+            lattice(value).ok_or_else(|| ModelProblem::OffLattice { line, found: (*word).to_string() })?;
     }
     Ok(point)
 }
@@ -119,7 +122,10 @@ mod tests {
     #[test]
     fn a_face_given_twice_is_refused_with_both_lines() {
         let found = message("f 1 2 3 4\nf 2 3 4 1\n");
-        assert!(found.starts_with("the face on line 6: the same square and outer side as the face on line 5"), "{found}");
+        assert!(
+            found.starts_with("the face on line 6: the same square and outer side as the face on line 5"),
+            "{found}"
+        );
     }
 
     #[test]

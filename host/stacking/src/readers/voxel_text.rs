@@ -78,10 +78,7 @@ mod tests {
 
     #[test]
     fn a_slice_with_a_row_too_many_is_refused_with_its_line() {
-        assert_eq!(
-            message("##\n\n##\n#.\n"),
-            "line 4: slice 1 ends after 2 rows, expected 1 as in slice 0"
-        );
+        assert_eq!(message("##\n\n##\n#.\n"), "line 4: slice 1 ends after 2 rows, expected 1 as in slice 0");
     }
 
     #[test]

@@ -1,0 +1,146 @@
+//! `zygote plan` as a user meets it: files, messages, exit codes.
+
+mod workplace;
+
+use workplace::{Workplace, model};
+
+#[test]
+fn a_plan_is_written_and_its_summary_printed() {
+    let place = Workplace::new("plan_summary");
+    let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", "4", "-o", "fish.fold"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(
+        run.output.starts_with("fish.fold: N = 92 panels, K = 4 piles, 23 high, on 2 x 2 cells"),
+        "{}",
+        run.output
+    );
+    assert!(run.output.contains("bridges: 3"), "{}", run.output);
+    assert_eq!(place.files(), ["fish.fold"]);
+}
+
+#[test]
+fn the_same_command_writes_the_same_bytes() {
+    let place = Workplace::new("plan_bytes");
+    for name in ["a.fold", "b.fold"] {
+        assert_eq!(place.zygote(&["plan", &model("fish144.txt"), "--piles", "4", "-o", name]).code, 0);
+    }
+    assert_eq!(place.read("a.fold"), place.read("b.fold"));
+}
+
+#[test]
+fn a_closed_mesh_is_cut_into_voxels_of_the_size_given() {
+    let place = Workplace::new("plan_mesh");
+    let run =
+        place.zygote(&["plan", &model("house.stl"), "--voxel", "0.5", "--piles", "2", "-o", "house.fold"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("N = 280 panels"), "{}", run.output);
+}
+
+/// Runs `zygote plan` on something that can't be planned; the message goes to standard error, and no file is left.
+#[track_caller]
+fn assert_refused(name: &str, options: &[&str], code: i32, told: &[&str]) {
+    let place = Workplace::new(&format!("plan_refused_{}", std::panic::Location::caller().line()));
+    let file = model(name);
+    let arguments = [&["plan", &file, "-o", "out.fold"][..], options].concat();
+    let run = place.zygote(&arguments);
+    assert_eq!(run.code, code, "{name}: {}", run.errors);
+    for part in told.iter().copied().chain([name]) {
+        assert!(run.errors.contains(part), "{name}: expected {part:?} in {}", run.errors);
+    }
+    assert!(place.files().is_empty(), "{name}: left {:?}", place.files());
+}
+
+#[test]
+fn an_unknown_format_is_refused() {
+    assert_refused("README.md", &[], 2, &["unknown format '.md', expected .txt"]);
+}
+
+#[test]
+fn a_file_that_is_not_there_is_refused() {
+    assert_refused("no_such.txt", &[], 2, &["cannot be read"]);
+}
+
+#[test]
+fn empty_ragged_and_garbled_voxel_files_are_refused() {
+    assert_refused("bad/empty.txt", &[], 2, &["empty: expected rows of '#' and '.'"]);
+    assert_refused("bad/no_voxels.txt", &[], 2, &["no voxel is solid"]);
+    assert_refused("bad/ragged.txt", &[], 2, &["line 2: a row of 2 characters, expected 3"]);
+    assert_refused("bad/character.txt", &[], 2, &["line 2, column 2: found 'o', expected '#'"]);
+}
+
+#[test]
+fn a_surface_in_several_pieces_is_refused_with_their_number_sizes_and_places() {
+    let told = "the surface is in 2 pieces, expected one: 54 panels with the face at (0, 0, 0); 6 panels with the face at (1, 1, 1)";
+    assert_refused("bad/cavity.txt", &[], 2, &[told]);
+    assert_refused("bad/touching.txt", &[], 2, &["in 2 pieces"]);
+}
+
+#[test]
+fn quads_that_are_none_on_the_lattice_are_refused_with_their_line() {
+    assert_refused("bad/triangle.obj", &[], 2, &["line 5: a face with 3 corners, expected 4"]);
+    assert_refused(
+        "bad/off_lattice.obj",
+        &[],
+        2,
+        &["line 4: vertex coordinate 1.5, expected a whole number"],
+    );
+    assert_refused("bad/long.obj", &[], 2, &["the face on line 6: corners", "expected a unit square"]);
+    assert_refused("bad/twice.obj", &[], 2, &["the face on line 7", "the face on line 6", "every face once"]);
+}
+
+#[test]
+fn sheets_that_cross_or_turn_over_are_refused_with_the_place() {
+    assert_refused(
+        "bad/unlike.obj",
+        &[],
+        2,
+        &["line 8", "line 9", "the same way along the edge (1, 0, 0) (1, 1, 0)"],
+    );
+    assert_refused("bad/crossing.obj", &[], 2, &["sheets cross at the edge (1, 0, 1) (1, 1, 1)", "line 15"]);
+    assert_refused("bad/three.obj", &[], 2, &["sheets cross at the edge (1, 0, 0) (1, 1, 0)"]);
+}
+
+#[test]
+fn a_mesh_with_a_hole_is_refused_with_the_number_of_open_edges() {
+    assert_refused(
+        "bad/hole.stl",
+        &["--voxel", "1"],
+        2,
+        &["4 open edges", "the first from (0, 3, 0) to (0, 3, 2)"],
+    );
+    assert_refused(
+        "bad/turned.stl",
+        &["--voxel", "1"],
+        2,
+        &["3 edges between triangles of unlike orientation"],
+    );
+}
+
+#[test]
+fn a_voxel_size_is_needed_for_a_mesh_and_only_for_a_mesh() {
+    assert_refused("house.stl", &[], 2, &["give --voxel SIZE"]);
+    assert_refused("house.stl", &["--voxel", "0"], 2, &["voxel size 0, expected a length above 0"]);
+    assert_refused("house.stl", &["--voxel", "100"], 2, &["no voxel of size 100", "4 x 3 x 4"]);
+    assert_refused("house.stl", &["--voxel", "1e-6"], 2, &["voxels in the box, expected at most"]);
+    assert_refused("i14.txt", &["--voxel", "1"], 2, &["for .stl files only"]);
+}
+
+#[test]
+fn a_number_of_piles_that_does_not_divide_the_panels_is_refused() {
+    let told = "92 panels don't make 3 equally high piles; the nearest numbers that do: 2 and 4";
+    assert_refused("fish92.txt", &["--piles", "3"], 2, &[told]);
+}
+
+#[test]
+fn a_sheet_without_a_strip_through_all_panels_fails_with_the_reason() {
+    assert_refused("bad/cross.obj", &[], 1, &["4 panels have one neighbour only"]);
+}
+
+#[test]
+fn a_folder_that_is_not_there_leaves_no_file() {
+    let place = Workplace::new("plan_no_folder");
+    let run = place.zygote(&["plan", &model("i14.txt"), "-o", "nowhere/i14.fold"]);
+    assert_eq!(run.code, 1);
+    assert!(run.errors.contains("nowhere/i14.fold: cannot be written"), "{}", run.errors);
+    assert!(place.files().is_empty());
+}

@@ -1,0 +1,64 @@
+//! A folder of its own for each test, and the `zygote` command run in it.
+
+use std::path::PathBuf;
+use std::process::Command;
+use std::{env, fs};
+
+/// A folder that is empty at first and gone at the end.
+pub(crate) struct Workplace {
+    folder: PathBuf,
+}
+
+/// How a command ended.
+pub(crate) struct Run {
+    pub(crate) code: i32,
+    pub(crate) output: String,
+    pub(crate) errors: String,
+}
+
+impl Workplace {
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+        fs::remove_dir_all(&folder).ok();
+        fs::create_dir_all(&folder).unwrap();
+        Self { folder }
+    }
+
+    pub(crate) fn zygote(&self, arguments: &[&str]) -> Run {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
+        let run = command.args(arguments).current_dir(&self.folder).output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.folder.join(name)).unwrap()
+    }
+
+    #[allow(dead_code, reason = "not every test writes files of its own")]
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        fs::write(self.folder.join(name), text).unwrap();
+    }
+
+    /// All that is in the folder, hidden files too.
+    #[allow(dead_code, reason = "not every test counts files")]
+    pub(crate) fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.folder).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Workplace {
+    fn drop(&mut self) {
+        fs::remove_dir_all(&self.folder).ok();
+    }
+}
+
+/// The path of a model of this repository.
+#[allow(dead_code, reason = "not every test needs a model")]
+pub(crate) fn model(name: &str) -> String {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name).to_str().unwrap().into()
+}

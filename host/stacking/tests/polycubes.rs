@@ -1,0 +1,116 @@
+//! Random solids of voxels and random open sheets: whatever is one surface gets a plan that breaks no rule.
+
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+use zygote_stacking::{Model, PlanError, Request, Surface, SurfaceError, check, fold, plan};
+
+type Voxel = [i32; 3];
+
+/// A solid that grows from one voxel: each number chooses a voxel that is there and a side to grow on.
+fn solid(choices: &[(usize, usize)]) -> BTreeSet<Voxel> {
+    let mut grown = vec![[0; 3]];
+    for (which, side) in choices {
+        let mut next = grown[which % grown.len()];
+        next[side % 3] += if side % 2 == 0 { 1 } else { -1 };
+        if !grown.contains(&next) {
+            grown.push(next);
+        }
+    }
+    grown.into_iter().collect()
+}
+
+/// The sides of a solid, written down axis by axis and not as the readers do it.
+fn boundary(solid: &BTreeSet<Voxel>) -> Vec<[Voxel; 4]> {
+    let mut quads = Vec::new();
+    for voxel in solid {
+        for axis in 0..3 {
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            for high in [false, true] {
+                let mut beyond = *voxel;
+                beyond[axis] += if high { 1 } else { -1 };
+                if !solid.contains(&beyond) {
+                    let corner = |du: i32, dv: i32| {
+                        let mut point = *voxel;
+                        point[axis] += i32::from(high);
+                        point[u] += du;
+                        point[v] += dv;
+                        point
+                    };
+                    let mut quad = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+                    if !high {
+                        quad.reverse();
+                    }
+                    quads.push(quad);
+                }
+            }
+        }
+    }
+    quads
+}
+
+fn request(piles: usize, seed: u64) -> Request {
+    Request { piles, root: None, thickness: 0.01, panel_length_mm: 90.0, seed }
+}
+
+fn assert_plans(model: &Model, seed: u64, piles: &[usize]) -> Result<(), TestCaseError> {
+    for k in piles.iter().filter(|k| model.surface().len().is_multiple_of(**k)) {
+        let made = plan(model, &request(*k, seed)).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        let bytes = fold::write(&made).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        let report = check(&fold::parse(&bytes).map_err(|error| TestCaseError::fail(error.to_string()))?);
+        prop_assert!(report.is_valid(), "K={k}: {:?}", report.lines(3));
+        prop_assert_eq!(&made.target, &model.surface().quads());
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_solids_stack_into_one_two_and_four_piles(
+        choices in prop::collection::vec((0..1000usize, 0..6usize), 0..40),
+        seed in any::<u64>(),
+    ) {
+        let surface = Surface::new(boundary(&solid(&choices)), Vec::new()).unwrap();
+        match Model::new("polycube", surface) {
+            // Voxels that enclose a cavity or touch along edges only have several surfaces: refused, and rightly so.
+            Err(error) => prop_assert!(matches!(error, SurfaceError::Pieces { .. }), "{}", error),
+            Ok(model) => assert_plans(&model, seed, &[1, 2, 4])?,
+        }
+    }
+
+    #[test]
+    fn random_solids_less_one_panel_are_open_sheets_that_stack_too(
+        choices in prop::collection::vec((0..1000usize, 0..6usize), 0..30),
+        gone in any::<prop::sample::Index>(),
+        seed in any::<u64>(),
+    ) {
+        let mut quads = boundary(&solid(&choices));
+        quads.remove(gone.index(quads.len()));
+        let surface = Surface::new(quads, Vec::new()).unwrap();
+        match Model::new("sheet", surface) {
+            // Where two sheets touch, a panel less leaves three at an edge.
+            Err(error) => {
+                let known = matches!(error, SurfaceError::Pieces { .. } | SurfaceError::Crossing { .. });
+                prop_assert!(known, "{}", error);
+            }
+            Ok(model) => assert_plans(&model, seed, &[1])?,
+        }
+    }
+}
+
+#[test]
+fn flat_sheets_of_every_small_size_stack() {
+    for (width, depth) in (1..=7).flat_map(|width| (1..=7).map(move |depth| (width, depth))) {
+        let squares = (0..width).flat_map(|x| (0..depth).map(move |y| (x, y)));
+        let quads =
+            squares.map(|(x, y)| [[x, y, 0], [x + 1, y, 0], [x + 1, y + 1, 0], [x, y + 1, 0]]).collect();
+        let model = Model::new("sheet", Surface::new(quads, Vec::new()).unwrap()).unwrap();
+        for k in [1, 2].into_iter().filter(|k| model.surface().len().is_multiple_of(*k)) {
+            let made: Result<_, PlanError> = plan(&model, &request(k, 0));
+            let bytes =
+                fold::write(&made.unwrap_or_else(|e| panic!("{width} x {depth}, K={k}: {e}"))).unwrap();
+            assert!(check(&fold::parse(&bytes).unwrap()).is_valid(), "{width} x {depth}, K={k}");
+        }
+    }
+}
