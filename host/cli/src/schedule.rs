@@ -79,8 +79,10 @@ fn summary(schedule: &Schedule) -> String {
 /// A time as people read it.
 fn clock(time: Millis) -> String {
     let tenths = time.0.div_ceil(100);
-    match tenths / 600 {
+    let minutes = tenths / 600;
+    match minutes {
         0 => format!("{}.{} s", tenths / 10, tenths % 10),
-        minutes => format!("{minutes} min {} s", tenths % 600 / 10),
+        1..60 => format!("{minutes} min {} s", tenths % 600 / 10),
+        60.. => format!("{} h {} min", minutes / 60, minutes % 60),
     }
 }

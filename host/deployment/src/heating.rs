@@ -38,3 +38,49 @@ pub(crate) fn time_to_target(rig: &Rig, sma: &SmaSettings) -> Seconds {
     }
     Seconds(seconds)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rig::Drive;
+    use crate::testing::rig_text;
+
+    fn rig_and_sma(extra: &str) -> (Rig, SmaSettings) {
+        let rig = Rig::read("rig.toml", &rig_text(&format!("[sma]\n{extra}"))).expect("a good rig");
+        let Drive::Sma(sma) = rig.fit(1).expect("a heater")[0].drive else {
+            panic!("the default kind is sma")
+        };
+        (rig, sma)
+    }
+
+    /// The same, integrated in steps of 0.1 ms.
+    fn integrated(rig: &Rig, sma: &SmaSettings) -> f64 {
+        let capacity = sma.time_constant.0 / sma.thermal_resistance.0;
+        let span = sma.austenite_start.0..sma.austenite_finish.0;
+        let power = rig.lowest_voltage().powi(2) / sma.heater_resistance.0;
+        let (mut time, mut temperature) = (0.0, rig.ambient.0);
+        while temperature < sma.target.0 {
+            let latent =
+                if span.contains(&temperature) { sma.latent_heat.0 / (span.end - span.start) } else { 0.0 };
+            let loss = (temperature - rig.ambient.0) / sma.thermal_resistance.0;
+            temperature += (power - loss) / (capacity + latent) * 1e-4;
+            time += 1e-4;
+        }
+        time
+    }
+
+    #[test]
+    fn the_time_of_heating_is_that_of_a_step_by_step_integration() {
+        for extra in ["", "latent_heat = \"0 J\"\n", "latent_heat = \"2 J\"\ntarget = \"90 degC\"\n"] {
+            let (rig, sma) = rig_and_sma(extra);
+            let (closed, stepped) = (time_to_target(&rig, &sma).0, integrated(&rig, &sma));
+            assert!((closed - stepped).abs() < 1e-2, "{closed} s in closed form, {stepped} s in steps");
+        }
+    }
+
+    #[test]
+    fn latent_heat_takes_time() {
+        let ((rig, with), (_, without)) = (rig_and_sma(""), rig_and_sma("latent_heat = \"0 J\"\n"));
+        assert!(time_to_target(&rig, &with).0 > time_to_target(&rig, &without).0 + 1.0);
+    }
+}

@@ -158,3 +158,108 @@ impl Kinematics {
         -height.iter().copied().fold(0.0, f64::min)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::real_plans;
+    use std::collections::BTreeSet;
+
+    /// Far above the rounding of a chain of thousands of joints, far below anything that matters.
+    const SAME: f64 = 1e-9;
+
+    fn farthest(a: &[[DVec3; 4]], b: &[[DVec3; 4]]) -> f64 {
+        a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn closed_hinges_give_the_zygote_and_open_ones_the_target() {
+        for plan in real_plans() {
+            let kinematics = Kinematics::new(&plan).expect("a tree");
+            let zygote: Vec<_> = plan
+                .zygote
+                .iter()
+                .map(|panel| panel.map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), 0.0)))
+                .collect();
+            assert!(farthest(&kinematics.corners(&[], 0.0), &zygote) < SAME, "{}", plan.source.model);
+            let target: Vec<_> = plan
+                .target
+                .iter()
+                .map(|panel| panel.map(|at| DVec3::from_array(at.map(f64::from))))
+                .collect();
+            let mut opened = kinematics.corners(&vec![1.0; plan.hinges.len()], 0.0);
+            for corner in opened.as_flattened_mut() {
+                *corner = kinematics.target_from_zygote().transform_point3(*corner);
+            }
+            assert!(
+                farthest(&opened, &target) < SAME,
+                "{}: {}",
+                plan.source.model,
+                farthest(&opened, &target)
+            );
+        }
+    }
+
+    #[test]
+    fn a_hinge_moves_its_own_branch_and_nothing_else() {
+        for plan in real_plans() {
+            let kinematics = Kinematics::new(&plan).expect("a tree");
+            let tree = Tree::new(&plan).expect("a tree");
+            let rest = kinematics.corners(&[], 0.0);
+            for branch in tree.branches() {
+                if plan.hinges[branch.hinge].zygote_angle_deg == plan.hinges[branch.hinge].target_angle_deg {
+                    continue;
+                }
+                let mut fractions = vec![0.0; plan.hinges.len()];
+                fractions[branch.hinge] = 0.37;
+                let moved: BTreeSet<_> = kinematics
+                    .corners(&fractions, 0.0)
+                    .iter()
+                    .zip(&rest)
+                    .enumerate()
+                    .filter(|(_, (now, before))| farthest(&[**now], &[**before]) > SAME)
+                    .map(|(panel, _)| panel)
+                    .collect();
+                let mut hanging = BTreeSet::from([branch.child]);
+                // Parents come before their children.
+                hanging = tree.branches().iter().fold(hanging, |mut hanging, other| {
+                    if hanging.contains(&other.parent) && other.hinge != branch.hinge {
+                        hanging.insert(other.child);
+                    }
+                    hanging
+                });
+                assert_eq!(moved, hanging, "{}, hinge {}", plan.source.model, branch.hinge);
+            }
+        }
+    }
+
+    #[test]
+    fn a_closed_stack_has_each_layer_one_thickness_above_the_last_from_the_ground_up() {
+        for plan in real_plans() {
+            let corners = Kinematics::new(&plan).expect("a tree").corners(&[], 0.1);
+            for pile in &plan.piles {
+                for (height, panel) in pile.panels.iter().enumerate() {
+                    for corner in corners[*panel] {
+                        assert!(
+                            (corner.z - height as f64 * 0.1).abs() < SAME,
+                            "panel {panel} at {}",
+                            corner.z
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn open_panels_have_no_thickness() {
+        for plan in real_plans() {
+            let kinematics = Kinematics::new(&plan).expect("a tree");
+            let open = vec![1.0; plan.hinges.len()];
+            let (thick, ideal) = (kinematics.corners(&open, 0.1), kinematics.corners(&open, 0.0));
+            let shift = thick[plan.root][0] - ideal[plan.root][0];
+            let shifted: Vec<_> = ideal.iter().map(|panel| panel.map(|corner| corner + shift)).collect();
+            assert!(farthest(&thick, &shifted) < SAME);
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! Small plans for this crate's tests.
 
-use zygote_stacking::{Hinge, HingeKind, Pile, Plan, Side, Source};
+use zygote_stacking::{Hinge, HingeKind, Model, Pile, Plan, Request, Side, Source, Surface};
 
 fn source() -> Source {
     Source { model: "by hand".into(), voxel_size: None, bounds: [1, 1, 1], seed: 0, program: "test".into() }
@@ -58,4 +58,54 @@ servos = 4
 springs = 2
 {extra}"#
     )
+}
+
+/// The squares between some voxels and the rest of space, counter-clockwise seen from outside.
+fn boundary(voxels: &[[i32; 3]]) -> Vec<[[i32; 3]; 4]> {
+    let mut quads = Vec::new();
+    for voxel in voxels {
+        for axis in 0..3 {
+            for (side, step) in [(0, -1), (1, 1)] {
+                let mut beyond = *voxel;
+                beyond[axis] += step;
+                if voxels.contains(&beyond) {
+                    continue;
+                }
+                let corner = |u: i32, v: i32| {
+                    let mut corner = *voxel;
+                    corner[axis] += side;
+                    corner[(axis + 1) % 3] += u;
+                    corner[(axis + 2) % 3] += v;
+                    corner
+                };
+                let mut quad = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+                if step < 0 {
+                    quad.reverse();
+                }
+                quads.push(quad);
+            }
+        }
+    }
+    quads
+}
+
+/// Plans as the planner makes them: a cube, a bar and an L of three voxels, and a ring of eight.
+pub(crate) fn real_plans() -> Vec<Plan> {
+    let ring: Vec<_> = (0..9).filter(|cell| *cell != 4).map(|cell| [cell % 3, cell / 3, 0]).collect();
+    let shapes = [
+        ("cube", vec![[0, 0, 0]], 1),
+        ("bar", vec![[0, 0, 0], [1, 0, 0], [2, 0, 0]], 1),
+        ("L", vec![[0, 0, 0], [1, 0, 0], [0, 0, 1]], 2),
+        ("ring", ring, 4),
+    ];
+    shapes
+        .into_iter()
+        .map(|(name, voxels, piles)| {
+            let quads = boundary(&voxels);
+            let lines = (1..=quads.len()).collect();
+            let model = Model::new(name, Surface::new(quads, lines).expect("a surface")).expect("one piece");
+            let request = Request { piles, root: None, thickness: 0.05, panel_length_mm: 90.0, seed: 1 };
+            zygote_stacking::plan(&model, &request).expect("a plan")
+        })
+        .collect()
 }

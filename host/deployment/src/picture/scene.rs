@@ -92,9 +92,10 @@ fn walls(panel: usize, plate: &Plate, to_eye: DVec3) -> impl Iterator<Item = Fra
         let outward = (from + to) / 2.0 - middle;
         let mut wall = Fragment::whole(panel, &[from, to, to + down, from + down]);
         if wall.normal.dot(outward) < 0.0 {
-            wall = Fragment::whole(panel, &[from + down, to + down, to, from]);
+            wall = Fragment::whole(panel, &[to, from, from + down, to + down]);
         }
-        wall.rim = vec![false; 4];
+        // The line between two layers is drawn with both: whichever wall is painted last, covers half of the other's.
+        wall.rim = vec![true, false, true, false];
         (wall.normal.dot(to_eye) > 0.0).then_some(wall)
     })
 }

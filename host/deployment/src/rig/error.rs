@@ -36,7 +36,7 @@ pub enum RigError {
     },
     /// The plan has more hinges of a kind than the node can drive.
     #[error(
-        "{place}: too few {} channels: the plan needs {needed} for its {} hinges, the node has {available}",
+        "{place}: too few {}: the plan needs {needed} for its {} hinges, the node has {available}",
         kind.channel_key(), kind.name()
     )]
     TooFewChannels {

@@ -194,3 +194,6 @@ impl Rig {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
