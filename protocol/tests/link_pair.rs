@@ -1,5 +1,6 @@
 //! Two ends over a line that drops, flips, repeats and delays: whatever the line does, reliable messages arrive
 //! once and in order, and urgent ones arrive.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on fails")]
 
 use proptest::prelude::*;
 use std::collections::VecDeque;

@@ -6,7 +6,8 @@ use std::{fs, path::Path};
 
 /// Builds the book, and checks that it holds every page under `docs/`.
 pub(crate) fn run() -> Result<()> {
-    let mdbook = tools::from_crates_io("mdbook", "^0.5", &["--no-default-features"])?;
+    // Unoptimised: it takes less time to build, and the book is small.
+    let mdbook = tools::from_crates_io("mdbook", "^0.5", &["--no-default-features", "--debug"])?;
     let docs = tools::root().join("docs");
     let summary =
         fs::read_to_string(docs.join("src/SUMMARY.md")).context("cannot read docs/src/SUMMARY.md")?;

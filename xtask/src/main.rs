@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to its terminal")]
 
 mod arrows;
+mod demo;
 mod docs;
 mod firmware;
 mod hil;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
     };
     let result = match (verb.as_str(), PARTS.iter().find(|part| part.verb == verb)) {
         ("test" | "ci", _) => parts::run_all(PARTS),
+        ("demo", _) => demo::run(),
         (_, Some(part)) => (part.run)(),
         (_, None) => {
             eprintln!("unknown verb `{verb}`\n{}", usage());
@@ -51,5 +53,8 @@ fn main() -> ExitCode {
 
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
-    format!("usage: cargo xtask VERB\n  test, ci  everything below\n{}", parts.join("\n"))
+    format!(
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  test, ci  everything below\n{}",
+        parts.join("\n")
+    )
 }

@@ -6,7 +6,7 @@ use anyhow::Result;
 /// Unit and integration tests.
 pub(crate) fn unit() -> Result<()> {
     let nextest = tools::from_crates_io("cargo-nextest", "^0.9", &[])?;
-    tools::run(tools::command(nextest).args(["nextest", "run", "--workspace"]))
+    tools::run(tools::command(nextest).args(["nextest", "run", "--workspace", "--no-fail-fast"]))
 }
 
 /// Examples in the documentation.

@@ -193,11 +193,11 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         self.supply = inputs.supply;
         self.current = inputs.current;
         self.stop_pressed = inputs.stop_pressed;
-        let sensors = self.sample(inputs);
+        self.sample(inputs);
         if self.stop_pressed && !matches!(self.mode, Mode::Safe(_)) {
             self.trip(now, Trip::new(FaultCode::StopButton, 0, 0));
         }
-        if let Err(fault) = self.check_all(now, sensors) {
+        if let Err(fault) = self.check_all(now) {
             self.fail(fault);
         }
         if let Mode::Running(limits) = self.mode
@@ -211,24 +211,17 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         }
     }
 
-    /// Gives every guard its reading; a heater without one reads as open. Returns the first that must not go on.
-    fn sample(&mut self, inputs: &Inputs<'_>) -> Result<(), (usize, Trip)> {
-        let mut verdict = Ok(());
-        let steps = self.program.steps();
-        for (channel, guard) in self.guards.iter_mut().enumerate() {
-            let counts = inputs.thermistors.get(channel).copied().unwrap_or(u16::MAX);
-            if let Err(trip) = guard.sample(counts, &self.config.thermistor)
-                && verdict.is_ok()
-                && steps.iter().any(|step| heater_of(&step.action) == Some(channel))
-            {
-                verdict = Err((channel, trip));
-            }
+    /// Gives every guard its reading; a fitted heater without one reads as open.
+    fn sample(&mut self, inputs: &Inputs<'_>) {
+        let fitted = usize::from(self.config.channels.heaters);
+        let readings = inputs.thermistors.iter().copied().chain(core::iter::repeat(u16::MAX));
+        for (guard, counts) in self.guards.iter_mut().zip(readings).take(fitted) {
+            guard.sample(counts, &self.config.thermistor);
         }
-        verdict
     }
 
     /// Everything that must hold while something may be energised.
-    fn check_all(&mut self, now: Micros, sensors: Result<(), (usize, Trip)>) -> Result<(), Fault> {
+    fn check_all(&mut self, now: Micros) -> Result<(), Fault> {
         let limits = match self.mode {
             Mode::Armed { until, limits, lifetime } => {
                 if now >= until {
@@ -244,15 +237,11 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             let silence = i64::try_from(silence / 1000).unwrap_or(i64::MAX);
             return Err(Trip::new(FaultCode::LinkLost, silence, limits.link_timeout.0).at(now, None, None));
         }
-        sensors.map_err(|(channel, trip)| {
-            let step = self.program.steps().iter().position(|step| heater_of(&step.action) == Some(channel));
-            trip.at(now, step.map(index), Some(index(channel)))
-        })?;
-        self.check_temperatures(now, &limits)?;
+        self.check_heaters(now, &limits)?;
         self.supply_guard.check(self.current, limits.supply).map_err(|trip| trip.at(now, None, None))
     }
 
-    fn check_temperatures(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {
+    fn check_heaters(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {
         let steps = self.program.steps();
         for ((at, step), state) in (0..).zip(steps).zip(self.sequencer.states()) {
             let Action::Heat(heat) = step.action else { continue };
@@ -330,13 +319,6 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             // With more faults waiting than the link keeps, the host has not listened; its next status tells it.
             self.link.send_urgent(&fault).ok();
         }
-    }
-}
-
-fn heater_of(action: &Action) -> Option<usize> {
-    match action {
-        Action::Heat(heat) => Some(usize::from(heat.channel)),
-        Action::Turn(_) | Action::Release(_) => None,
     }
 }
 

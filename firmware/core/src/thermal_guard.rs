@@ -23,13 +23,15 @@ const UNHEATED_RISE: CentiCelsius = CentiCelsius(1_500);
 pub(crate) struct ThermalGuard {
     /// Last believable reading.
     last: Option<CentiCelsius>,
+    /// How many readings in a row weren't, and what was wrong with the latest.
     bad: u8,
+    why: Option<Trip>,
     /// Coldest reading since the heater went off; `None` while it is on.
     floor: Option<CentiCelsius>,
 }
 
 impl ThermalGuard {
-    pub(crate) const NEW: Self = Self { last: None, bad: 0, floor: None };
+    pub(crate) const NEW: Self = Self { last: None, bad: 0, why: None, floor: None };
 
     /// The last believable temperature.
     pub(crate) fn temperature(&self) -> Option<CentiCelsius> {
@@ -42,19 +44,16 @@ impl ThermalGuard {
     }
 
     /// Takes a reading.
-    ///
-    /// # Errors
-    /// The third bad reading in a row.
-    pub(crate) fn sample(&mut self, counts: u16, thermistor: &Thermistor) -> Result<(), Trip> {
+    pub(crate) fn sample(&mut self, counts: u16, thermistor: &Thermistor) {
         match self.judge(counts, thermistor) {
             Ok(temperature) => {
                 self.last = Some(temperature);
                 self.bad = 0;
-                Ok(())
+                self.why = None;
             }
             Err(trip) => {
                 self.bad = self.bad.saturating_add(1);
-                if self.bad >= FILTER { Err(trip) } else { Ok(()) }
+                self.why = Some(trip);
             }
         }
     }
@@ -75,11 +74,14 @@ impl ThermalGuard {
         }
     }
 
-    /// Holds the temperature against the limit, and against what an unheated hinge may do.
+    /// Holds the readings against what is believable, the limit, and what an unheated hinge may do.
     ///
     /// # Errors
-    /// Too hot, or warm without being heated.
+    /// Three bad readings in a row, too hot, or warm without being heated.
     pub(crate) fn check(&mut self, driven: bool, max: CentiCelsius) -> Result<(), Trip> {
+        if let Some(trip) = self.why.filter(|_| self.bad >= FILTER) {
+            return Err(trip);
+        }
         let Some(now) = self.last else { return Ok(()) };
         if now > max {
             return Err(Trip::new(FaultCode::OverTemperature, now.0, max.0));
@@ -105,53 +107,55 @@ mod tests {
     const COLD: u16 = 2_190;
     const WARM: u16 = 1_226;
 
-    fn warmed_to(counts: u16, driven: bool) -> Result<(), Trip> {
+    /// Takes a reading and judges.
+    fn read(guard: &mut ThermalGuard, counts: u16, driven: bool) -> Result<(), FaultCode> {
+        guard.sample(counts, &NTC_10K);
+        guard.check(driven, MAX).map_err(|trip| trip.code)
+    }
+
+    fn warmed_to(counts: u16, driven: bool) -> Result<(), FaultCode> {
         let mut guard = ThermalGuard::NEW;
-        for step in (counts..=COLD).rev().step_by(10) {
-            guard.sample(step, &NTC_10K)?;
-            guard.check(driven, MAX)?;
-        }
-        Ok(())
+        (counts..=COLD).rev().step_by(10).try_for_each(|step| read(&mut guard, step, driven))
     }
 
     #[test]
-    fn s5_an_open_thermistor_trips_at_the_third_sample() {
-        let mut guard = ThermalGuard::NEW;
-        assert!(guard.sample(4_095, &NTC_10K).is_ok());
-        assert!(guard.sample(4_095, &NTC_10K).is_ok());
-        assert_eq!(guard.sample(4_095, &NTC_10K).unwrap_err().code, FaultCode::SensorOpen);
+    fn s5_an_open_or_shorted_thermistor_trips_at_the_third_sample() {
+        for (counts, code) in [(4_095, FaultCode::SensorOpen), (0, FaultCode::SensorShorted)] {
+            let mut guard = ThermalGuard::NEW;
+            assert_eq!(read(&mut guard, counts, true), Ok(()));
+            assert_eq!(read(&mut guard, counts, true), Ok(()));
+            assert_eq!(read(&mut guard, counts, true), Err(code));
+        }
     }
 
     #[test]
     fn s5_two_bad_samples_and_a_good_one_are_noise() {
         let mut guard = ThermalGuard::NEW;
-        for _ in 0..10 {
-            for counts in [0, 0, COLD] {
-                assert!(guard.sample(counts, &NTC_10K).is_ok());
-            }
+        for counts in [0, 0, COLD].into_iter().cycle().take(30) {
+            assert_eq!(read(&mut guard, counts, true), Ok(()));
         }
     }
 
     #[test]
     fn s5_a_jump_that_stays_trips_and_the_last_good_value_stands() {
         let mut guard = ThermalGuard::NEW;
-        guard.sample(COLD, &NTC_10K).unwrap();
+        read(&mut guard, COLD, true).unwrap();
         let before = guard.temperature();
-        guard.sample(WARM, &NTC_10K).unwrap();
-        guard.sample(WARM, &NTC_10K).unwrap();
+        read(&mut guard, WARM, true).unwrap();
+        read(&mut guard, WARM, true).unwrap();
         assert_eq!(guard.temperature(), before);
-        assert_eq!(guard.sample(WARM, &NTC_10K).unwrap_err().code, FaultCode::SensorJumped);
+        assert_eq!(read(&mut guard, WARM, true), Err(FaultCode::SensorJumped));
     }
 
     #[test]
     fn s6_warming_without_being_heated_trips() {
-        assert_eq!(warmed_to(WARM, false).unwrap_err().code, FaultCode::UnexpectedHeat);
+        assert_eq!(warmed_to(WARM, false), Err(FaultCode::UnexpectedHeat));
     }
 
     #[test]
-    fn warming_while_heated_is_fine_up_to_the_limit() {
+    fn s4_warming_while_heated_is_fine_up_to_the_limit() {
         assert_eq!(warmed_to(WARM, true), Ok(()));
         // About 130 °C.
-        assert_eq!(warmed_to(120, true).unwrap_err().code, FaultCode::OverTemperature);
+        assert_eq!(warmed_to(120, true), Err(FaultCode::OverTemperature));
     }
 }

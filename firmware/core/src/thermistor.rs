@@ -44,12 +44,16 @@ mod tests {
     use super::*;
 
     /// Counts that the divider gives at a temperature, by the beta equation solved the other way.
+    #[expect(
+        clippy::as_conversions,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 to 4095"
+    )]
     fn counts_at(celsius: f64) -> u16 {
-        let ohm = 10_000.0 * (3_950.0 * (1.0 / (celsius + 273.15) - 1.0 / 298.15)).exp();
-        (4_095.0 * ohm / (ohm + 10_000.0)).round() as u16
+        let ohm = 10_000.0 * libm::exp(3_950.0 * (1.0 / (celsius + 273.15) - 1.0 / 298.15));
+        libm::round(4_095.0 * ohm / (ohm + 10_000.0)) as u16
     }
-
-    extern crate std;
 
     #[test]
     fn readings_give_the_temperature_within_a_quantisation_step() {

@@ -1,13 +1,12 @@
 //! `zygote deploy`: runs a plan's schedule on a board or on the simulator, and reports.
 
 use crate::failure::{Failure, OrFail};
-use crate::output::{say, write_file};
+use crate::output::{LateFile, say, write_file};
 use crate::sim_rig::{self, SimTransport};
 use crate::{identity, input, interrupt};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -92,8 +91,7 @@ fn run_on<T: Transport>(
     let interrupted = interrupt::flag()?;
     let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
     let log_path = beside(arguments.log.as_ref(), &arguments.plan, "events.jsonl");
-    let file = File::create(&log_path).with_context(|| format!("{}: cannot be written", log_path.display()));
-    let mut log = EventLog::new(BufWriter::new(file.or_bad_input()?));
+    let mut log = EventLog::new(BufWriter::new(LateFile::new(log_path.clone())));
     let deployment = Deployment {
         schedule,
         rig,
@@ -155,14 +153,9 @@ fn show(bar: &ProgressBar, progress: &Progress) {
 }
 
 fn describe(motion: &MotionState) -> String {
-    let mut text = format!("hinge {} {}", motion.hinge, motion.phase);
-    if let Some(celsius) = motion.temperature_c {
-        text += &format!(", {celsius:.0} °C");
-    }
-    if let Some(degrees) = motion.opening_deg {
-        text += &format!(", about {degrees:.0}°");
-    }
-    text
+    let temperature = motion.temperature_c.map(|celsius| format!(", {celsius:.0} °C")).unwrap_or_default();
+    let angle = motion.opening_deg.map(|degrees| format!(", about {degrees:.0}°")).unwrap_or_default();
+    format!("hinge {} {}{temperature}{angle}", motion.hinge, motion.phase)
 }
 
 /// Holds the true angles of the simulated hinges against those of the plan.

@@ -2,8 +2,9 @@
 
 use crate::failure::{Failure, OrFail};
 use anyhow::Context;
-use std::path::Path;
-use std::{fs, process};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::{fs, io, process};
 
 /// Writes a file beside its place and then moves it there, so that no reader ever sees half of it.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
@@ -19,7 +20,38 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Prints a line for the user.
-#[expect(clippy::print_stdout, reason = "the one place where results reach the user")]
 pub(crate) fn say(line: impl std::fmt::Display) {
-    println!("{line}");
+    // A reader that has gone (`| head`) wants no more lines; the work and the exit code stand without them.
+    writeln!(io::stdout(), "{line}").ok();
+}
+
+/// A file that is made, or emptied, when the first byte is written to it: what fails before leaves the old one alone.
+pub(crate) struct LateFile {
+    path: PathBuf,
+    file: Option<fs::File>,
+}
+
+impl LateFile {
+    /// A file that doesn't exist yet.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self { path, file: None }
+    }
+}
+
+impl Write for LateFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.file {
+            Some(file) => file.write(bytes),
+            empty => {
+                let named = |error: io::Error| {
+                    io::Error::new(error.kind(), format!("{}: {error}", self.path.display()))
+                };
+                empty.insert(fs::File::create(&self.path).map_err(named)?).write(bytes)
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.as_mut().map_or(Ok(()), fs::File::flush)
+    }
 }

@@ -41,16 +41,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .with_context(|| format!("{}: no schedule on this rig", arguments.plan.display()))
         .or_bad_input()?;
     schedule.verify(&plan, &rig).context("a fault of this program: its own schedule is wrong").or_failed()?;
-    let written = match &arguments.output {
-        Some(output) => {
-            write_file(output, schedule.to_text().or_failed()?.as_bytes())?;
-            output
-        }
-        None => {
-            plan.schedule = Some(schedule.to_json().or_failed()?);
-            write_file(&arguments.plan, &fold::write(&plan).or_failed()?)?;
-            &arguments.plan
-        }
+    let written = if let Some(output) = &arguments.output {
+        write_file(output, schedule.to_text().or_failed()?.as_bytes())?;
+        output
+    } else {
+        plan.schedule = Some(schedule.to_json().or_failed()?);
+        write_file(&arguments.plan, &fold::write(&plan).or_failed()?)?;
+        &arguments.plan
     };
     say(format_args!("{}: {}", written.display(), summary(&schedule)));
     Ok(())

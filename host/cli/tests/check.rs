@@ -1,11 +1,11 @@
 //! `zygote check` as a user meets it: verdicts and exit codes.
 
-mod workplace;
+mod scratch;
 
-use workplace::{Workplace, model};
+use scratch::{Scratch, model};
 
-fn planned(name: &str) -> Workplace {
-    let place = Workplace::new(name);
+fn planned(name: &str) -> Scratch {
+    let place = Scratch::new(name);
     let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", "2", "-o", "fish.fold"]);
     assert_eq!(run.code, 0, "{}", run.errors);
     place
@@ -44,7 +44,7 @@ fn only_the_first_few_places_of_a_rule_are_listed() {
 
 #[test]
 fn what_is_no_plan_at_all_is_unreadable() {
-    let place = Workplace::new("check_unreadable");
+    let place = Scratch::new("check_unreadable");
     place.write("half.fold", "{\"file_spec\": 1.2,");
     place.write("list.fold", "[]");
     for (name, told) in

@@ -1,12 +1,12 @@
 //! `zygote plan` as a user meets it: files, messages, exit codes.
 
-mod workplace;
+mod scratch;
 
-use workplace::{Workplace, model};
+use scratch::{Scratch, model};
 
 #[test]
 fn a_plan_is_written_and_its_summary_printed() {
-    let place = Workplace::new("plan_summary");
+    let place = Scratch::new("plan_summary");
     let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", "4", "-o", "fish.fold"]);
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(
@@ -20,7 +20,7 @@ fn a_plan_is_written_and_its_summary_printed() {
 
 #[test]
 fn the_same_command_writes_the_same_bytes() {
-    let place = Workplace::new("plan_bytes");
+    let place = Scratch::new("plan_bytes");
     for name in ["a.fold", "b.fold"] {
         assert_eq!(place.zygote(&["plan", &model("fish144.txt"), "--piles", "4", "-o", name]).code, 0);
     }
@@ -29,7 +29,7 @@ fn the_same_command_writes_the_same_bytes() {
 
 #[test]
 fn a_closed_mesh_is_cut_into_voxels_of_the_size_given() {
-    let place = Workplace::new("plan_mesh");
+    let place = Scratch::new("plan_mesh");
     let run =
         place.zygote(&["plan", &model("house.stl"), "--voxel", "0.5", "--piles", "2", "-o", "house.fold"]);
     assert_eq!(run.code, 0, "{}", run.errors);
@@ -39,7 +39,7 @@ fn a_closed_mesh_is_cut_into_voxels_of_the_size_given() {
 /// Runs `zygote plan` on something that can't be planned; the message goes to standard error, and no file is left.
 #[track_caller]
 fn assert_refused(name: &str, options: &[&str], code: i32, told: &[&str]) {
-    let place = Workplace::new(&format!("plan_refused_{}", std::panic::Location::caller().line()));
+    let place = Scratch::new(&format!("plan_refused_{}", std::panic::Location::caller().line()));
     let file = model(name);
     let arguments = [&["plan", &file, "-o", "out.fold"][..], options].concat();
     let run = place.zygote(&arguments);
@@ -138,7 +138,7 @@ fn a_sheet_without_a_strip_through_all_panels_fails_with_the_reason() {
 
 #[test]
 fn a_folder_that_is_not_there_leaves_no_file() {
-    let place = Workplace::new("plan_no_folder");
+    let place = Scratch::new("plan_no_folder");
     let run = place.zygote(&["plan", &model("i14.txt"), "-o", "nowhere/i14.fold"]);
     assert_eq!(run.code, 1);
     assert!(run.errors.contains("nowhere/i14.fold: cannot be written"), "{}", run.errors);

@@ -43,6 +43,12 @@ pub enum DeployError {
         /// What it is doing.
         state: State,
     },
+    /// The event log can't be begun; once a run is under way, it isn't stopped for that.
+    #[error("the event log can't be written: {message}")]
+    Log {
+        /// What the system says.
+        message: String,
+    },
     /// A command was refused, or the session ended.
     #[error(transparent)]
     Request(#[from] RequestError),
@@ -96,6 +102,12 @@ pub fn deploy<T: Transport>(
     let Deployment { schedule, rig, run, .. } = *deployment;
     let info = session.info().clone();
     let (board, firmware) = (info.identity.board.to_string(), info.identity.firmware.to_string());
+    let fittings = rig.fit(schedule.steps.len())?;
+    let steps = program::program(schedule, &info)?;
+    let limits = program::limits(schedule, &steps, rig, &info)?;
+    let rig_id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
+    make_ready(session, deployment.clear)?;
+    upload(session, run, &rig_id, &steps)?;
     log.add(
         session.now(),
         &Record::Connected {
@@ -105,13 +117,10 @@ pub fn deploy<T: Transport>(
             boot: info.identity.boot,
         },
     );
-    let fittings = rig.fit(schedule.steps.len())?;
-    let steps = program::program(schedule, &info)?;
-    let limits = program::limits(schedule, &steps, rig, &info)?;
-    let rig_id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
-    make_ready(session, deployment.clear)?;
-    upload(session, run, &rig_id, &steps)?;
     log.add(session.now(), &Record::Uploaded { run, steps: steps.len() });
+    if let Some(error) = log.error() {
+        return Err(DeployError::Log { message: error.to_string() });
+    }
     let report = RunReport::new(run, schedule, &board, &firmware);
     let mut watch = Watch { schedule, fittings, report, started: None, ended: None, finished: false, log };
     if let Err(error) = start(session, run, rig_id, limits) {

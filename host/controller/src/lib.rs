@@ -8,6 +8,7 @@
 //!
 //! The MCU executes a run by itself; what stands here carries the program there and brings the news back.
 
+mod connect;
 mod deploy;
 mod estimate;
 mod event_log;
@@ -17,11 +18,12 @@ mod serial;
 mod session;
 mod transport;
 
+pub use connect::ConnectError;
 pub use deploy::{DeployError, Deployment, Progress, deploy};
 pub use estimate::MotionState;
 pub use event_log::{EventLog, Record};
 pub use program::{ProgramError, limits, program};
 pub use report::{HingeOutcome, HingeReport, Outcome, RunReport};
 pub use serial::{SerialError, SerialTransport};
-pub use session::{ConnectError, Notice, RequestError, Session, SessionError};
+pub use session::{Notice, RequestError, Session, SessionError};
 pub use transport::Transport;

@@ -1,73 +1,16 @@
-//! A session with one MCU: the hello, requests with their responses, and the news in between.
+//! A session with one MCU: requests with their responses, and the news in between. `connect` opens it.
 
 use crate::Transport;
+use crate::connect::{self, ConnectError, transmit};
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
 use zygote_protocol::{
-    Command, Event, Fault, Hello, HelloReply, Link, LinkCounters, MAX_ENCODED, Micros, Millis, Received,
-    Refusal, Reply, Report, Request, Response, SendError, Status, Telemetry, Urgent, VERSION, VERSION_MIN,
-    decode_payload, schema,
+    Command, Event, Fault, HelloReply, Link, LinkCounters, Micros, Millis, Received, Refusal, Reply, Report,
+    Request, Response, SendError, Status, Telemetry, Urgent, decode_payload,
 };
 
-/// A hello is repeated so often until it is answered.
-const HELLO_EVERY: Millis = Millis(200);
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
 const SILENCE: Millis = Millis(2_000);
-
-/// Why no session was opened.
-#[derive(Debug, thiserror::Error)]
-pub enum ConnectError {
-    /// Nobody answered.
-    #[error(
-        "{line}: no answer to a hello within {waited_ms} ms ({heard} bytes came, none of them a zygote's frame): \
-         is this a zygote, and is the baud rate right?"
-    )]
-    NoAnswer {
-        /// The line.
-        line: String,
-        /// How long it was waited for.
-        waited_ms: u32,
-        /// Bytes that came all the same.
-        heard: u64,
-    },
-    /// An answer of another version.
-    #[error(
-        "{line}: the firmware ({firmware}) speaks protocol {theirs_min} to {theirs}, this program {VERSION_MIN} to \
-         {VERSION}: flash the firmware of this program's version, or use the program of the firmware's"
-    )]
-    Version {
-        /// The line.
-        line: String,
-        /// Name of the firmware, where it could be read.
-        firmware: String,
-        /// Oldest version that the MCU understands.
-        theirs_min: u16,
-        /// Newest version that the MCU understands.
-        theirs: u16,
-    },
-    /// The same version number, but other messages.
-    #[error(
-        "{line}: the firmware says protocol {VERSION} as this program does, but its messages differ (schema \
-         {theirs:08x}, here {ours:08x}): one of the two is a development build; build both from one commit"
-    )]
-    Schema {
-        /// The line.
-        line: String,
-        /// Schema hash of the firmware.
-        theirs: u32,
-        /// Schema hash of this program.
-        ours: u32,
-    },
-    /// The line broke.
-    #[error("{line}: the line failed")]
-    Line {
-        /// The line.
-        line: String,
-        /// What the system says.
-        #[source]
-        source: io::Error,
-    },
-}
 
 /// Why a session ended.
 #[derive(Debug, thiserror::Error)]
@@ -157,42 +100,10 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// Nobody there, another version, or a broken line.
     pub fn connect(mut transport: T, number: u32, patience: Millis) -> Result<Self, ConnectError> {
-        let line = transport.name();
         let mut link = Link::new(transport.now());
-        let deadline = transport.now().plus(patience);
-        let mut heard = 0;
-        let mut buffer = [0; 1024];
-        let failed = |source| ConnectError::Line { line: line.clone(), source };
-        while transport.now() < deadline {
-            // A hello always fits a frame.
-            link.send_hello(number, &Hello::ours()).ok();
-            transmit(&mut transport, &mut link).map_err(failed)?;
-            let again = transport.now().plus(HELLO_EVERY).min(deadline);
-            while transport.now() < again {
-                let count = transport.receive(&mut buffer, again).map_err(failed)?;
-                heard += u64::try_from(count).unwrap_or(u64::MAX);
-                let now = transport.now();
-                let mut bytes = buffer.get(..count).unwrap_or_default();
-                while let Some(received) = link.receive(now, &mut bytes, true) {
-                    if let Received::HelloReply(session, payload) = received
-                        && session == number
-                    {
-                        let info = understand(&line, payload)?;
-                        link.open(number, now);
-                        return Ok(Self {
-                            transport,
-                            link,
-                            info,
-                            next_id: 0,
-                            responses: BTreeMap::new(),
-                            notices: VecDeque::new(),
-                            last_fault: None,
-                        });
-                    }
-                }
-            }
-        }
-        Err(ConnectError::NoAnswer { line, waited_ms: patience.0, heard })
+        let info = connect::shake_hands(&mut transport, &mut link, number, patience)?;
+        let (responses, notices) = (BTreeMap::new(), VecDeque::new());
+        Ok(Self { transport, link, info, next_id: 0, responses, notices, last_fault: None })
     }
 
     /// What the MCU said about itself.
@@ -336,38 +247,6 @@ impl<T: Transport> Session<T> {
         }
         let sent = transmit(&mut self.transport, &mut self.link);
         sent.map_err(|source| broken(self.transport.name(), source))
-    }
-}
-
-/// Sends every frame that is due.
-fn transmit<T: Transport>(transport: &mut T, link: &mut Link) -> io::Result<()> {
-    let mut frame = [0; MAX_ENCODED];
-    loop {
-        let length = link.poll_transmit(transport.now(), &mut frame);
-        match frame.get(..length) {
-            None | Some([]) => return Ok(()),
-            Some(bytes) => transport.send(bytes)?,
-        }
-    }
-}
-
-/// Reads an answer to a hello; the versions come first, so that they can be read whatever follows.
-fn understand(line: &str, payload: &[u8]) -> Result<HelloReply, ConnectError> {
-    let info = decode_payload::<HelloReply>(payload);
-    // Same leading fields as any HelloReply, of any version.
-    let (theirs_min, theirs, schema_hash) = match (&info, zygote_protocol::peek_versions(payload)) {
-        (Some(info), _) => (info.min, info.current, info.schema),
-        (None, Some(hello)) => (hello.min, hello.current, hello.schema),
-        (None, None) => (0, 0, 0),
-    };
-    if theirs < VERSION_MIN || theirs_min > VERSION {
-        let firmware = info.map_or_else(|| "unknown".to_owned(), |info| info.identity.firmware.to_string());
-        return Err(ConnectError::Version { line: line.to_owned(), firmware, theirs_min, theirs });
-    }
-    let differs = ConnectError::Schema { line: line.to_owned(), theirs: schema_hash, ours: schema::hash() };
-    match info {
-        Some(info) if schema_hash == schema::hash() => Ok(info),
-        Some(_) | None => Err(differs),
     }
 }
 

@@ -1,5 +1,7 @@
 //! A plan that somebody changed is refused, and the message names key and index.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::path::PathBuf;

@@ -1,5 +1,7 @@
 //! Random solids of voxels and random open sheets: whatever is one surface gets a plan that breaks no rule.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use zygote_stacking::{Model, PlanError, Request, Surface, SurfaceError, check, fold, plan};

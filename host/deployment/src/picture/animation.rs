@@ -1,9 +1,11 @@
 //! The whole deployment in one SVG that plays by itself, over and over.
 
+use super::camera::Bounds;
 use super::document::Document;
 use super::film::Set;
+use super::scene::Scene;
 use super::stage::{Timeline, TimelineError};
-use super::still::{MARGIN, joined, scale_for, title};
+use super::still::{MARGIN, scale_for, title};
 use glam::DVec2;
 use zygote_stacking::Plan;
 
@@ -31,7 +33,11 @@ pub fn animation(plan: &Plan, frames: Option<usize>) -> Result<String, TimelineE
         frames.unwrap_or_else(|| (POLYGONS / (2 * plan.target.len()).max(1)).clamp(12, 240)).max(2) - 1;
     let scenes: Vec<_> =
         (0..=last).map(|frame| set.scene(&timeline, timeline.end() * frame as f64 / last as f64)).collect();
-    let bounds = joined(&scenes);
+    let middles = followed(&scenes);
+    let bounds = scenes
+        .iter()
+        .zip(&middles)
+        .fold(Bounds::NOTHING, |bounds, (scene, middle)| bounds.join(scene.bounds.moved(-*middle)));
     let around = DVec2::new(2.0 * MARGIN, 2.0 * MARGIN + BAR);
     let scale = scale_for(bounds.size(), around, LARGEST);
     let size = bounds.size() * scale + around;
@@ -53,11 +59,25 @@ pub fn animation(plan: &Plan, frames: Option<usize>) -> Result<String, TimelineE
             "<g display=\"{shown}\"><animate attributeName=\"display\" dur=\"{whole:.2}s\" \
              repeatCount=\"indefinite\" calcMode=\"discrete\" values=\"{values}\" keyTimes=\"{times}\"/>\n"
         ));
-        document.scene(scene, &bounds, DVec2::new(MARGIN, size.y - MARGIN - BAR));
+        document.scene(scene, &bounds.moved(middles[frame]), DVec2::new(MARGIN, size.y - MARGIN - BAR));
         document.raw(format_args!("</g>\n"));
     }
     bar(&mut document, size, REST_S[0] / whole, (REST_S[0] + playing) / whole, whole);
     Ok(document.finish(&title(plan)))
+}
+
+/// Where the eye looks in each frame: at the middle of what there is to see, smoothed so that it doesn't jerk.
+fn followed(scenes: &[Scene]) -> Vec<DVec2> {
+    let middles: Vec<_> = scenes.iter().map(|scene| (scene.bounds.low + scene.bounds.high) / 2.0).collect();
+    let reach = scenes.len() / 12;
+    (0..middles.len())
+        .map(|frame| {
+            // As far to either side as there are frames, so that the first and the last stand in the middle.
+            let reach = reach.min(frame).min(middles.len() - 1 - frame);
+            let near = &middles[frame - reach..=frame + reach];
+            near.iter().sum::<DVec2>() / near.len() as f64
+        })
+        .collect()
 }
 
 /// A bar that fills while the hinges move, from `begin` to `end` as shares of the whole.

@@ -21,7 +21,7 @@ impl Camera {
     }
 
     /// The unit vector from the scene to the eye.
-    pub(super) fn to_eye(&self) -> DVec3 {
+    pub(super) fn to_eye(self) -> DVec3 {
         self.to_eye
     }
 
@@ -53,6 +53,11 @@ impl Bounds {
     /// Around both.
     pub(super) fn join(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// The same, elsewhere.
+    pub(super) fn moved(self, by: DVec2) -> Self {
+        Self { low: self.low + by, high: self.high + by }
     }
 
     pub(super) fn size(&self) -> DVec2 {

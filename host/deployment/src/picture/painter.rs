@@ -188,11 +188,18 @@ mod tests {
         hits.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(panel, _)| panel)
     }
 
+    /// How far from its foot a ray meets the plane of a panel.
+    fn depth(corners: &[DVec3; 4], foot: DVec3) -> f64 {
+        let normal = Fragment::whole(0, corners).normal;
+        (corners[0] - foot).dot(normal) / TO_EYE.dot(normal)
+    }
+
     fn inside(fragment: &Fragment, point: DVec3) -> bool {
         let corners = &fragment.corners;
         (0..corners.len()).all(|i| {
             let side = corners[(i + 1) % corners.len()] - corners[i];
-            side.cross(point - corners[i]).dot(fragment.normal) > 1e-4
+            // A side may be as short as a hair; then it says nothing.
+            side.length() < 1e-9 || side.normalize().cross(point - corners[i]).dot(fragment.normal) > 1e-6
         })
     }
 
@@ -232,7 +239,8 @@ mod tests {
                 // Near a rim a hair decides; those are left out.
                 if let (Some(seen), Some(painted)) = (seen_first(&squares, foot), painted_last(&fragments, foot)) {
                     let near_rim = fragments.iter().any(|fragment| near_rim(fragment, foot));
-                    prop_assert!(near_rim || seen == painted, "{} hides {}", seen, painted);
+                    let gap = depth(&squares[seen], foot) - depth(&squares[painted], foot);
+                    prop_assert!(near_rim || gap < 1e-5, "{} hides {} by {}", seen, painted, gap);
                 }
             }
         }

@@ -94,8 +94,7 @@ fn walls(panel: usize, plate: &Plate, to_eye: DVec3) -> impl Iterator<Item = Fra
         if wall.normal.dot(outward) < 0.0 {
             wall = Fragment::whole(panel, &[to, from, from + down, to + down]);
         }
-        // The line between two layers is drawn with both: whichever wall is painted last, covers half of the other's.
-        wall.rim = vec![true, false, true, false];
+        // Its rim is drawn whole: of the line between two layers each would cover half of the other's.
         (wall.normal.dot(to_eye) > 0.0).then_some(wall)
     })
 }

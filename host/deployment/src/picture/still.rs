@@ -1,6 +1,5 @@
 //! The target, the zygote, or both side by side.
 
-use super::camera::Bounds;
 use super::document::Document;
 use super::scene::{Plate, Scene};
 use crate::kinematics::Kinematics;
@@ -128,9 +127,4 @@ fn side_by_side(plan: &Plan, scenes: &[(Scene, Caption)]) -> String {
 pub(super) fn captions(document: &mut Document, head: &str, note: &str, floor: DVec2) {
     document.caption(head, floor + DVec2::new(0.0, 48.0), "head");
     document.caption(note, floor + DVec2::new(0.0, 70.0), "note");
-}
-
-/// Around all scenes.
-pub(super) fn joined(scenes: &[Scene]) -> Bounds {
-    scenes.iter().fold(Bounds::NOTHING, |bounds, scene| bounds.join(scene.bounds))
 }

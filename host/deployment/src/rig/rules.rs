@@ -113,7 +113,7 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
     }
 
     /// `what` says where the limit is set, if not by this program.
-    fn at_most<T: PartialOrd + Display>(
+    fn at_most<T: PartialOrd + Display + Copy>(
         &self,
         key: &str,
         value: T,
@@ -123,11 +123,17 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
         self.hold(value <= limit, key, &format!("at most {what}{limit}"), &value.to_string())
     }
 
-    fn between<T: PartialOrd + Display>(&self, key: &str, value: T, low: T, high: T) -> Result<(), RigError> {
+    fn between<T: PartialOrd + Display + Copy>(
+        &self,
+        key: &str,
+        value: T,
+        low: T,
+        high: T,
+    ) -> Result<(), RigError> {
         self.hold(value >= low && value <= high, key, &format!("{low} to {high}"), &value.to_string())
     }
 
-    fn below<T: PartialOrd + Display>(
+    fn below<T: PartialOrd + Display + Copy>(
         &self,
         key: &str,
         value: T,

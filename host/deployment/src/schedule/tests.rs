@@ -11,6 +11,9 @@ fn rig(extra: &str) -> Rig {
     Rig::read("rig.toml", &rig_text(extra)).expect("a good rig")
 }
 
+/// A change to a schedule.
+type Change = fn(&mut Schedule);
+
 /// A rig of 200 channels a kind in which every third hinge is a servo and every fifth a spring.
 fn wide_rig(hinges: usize, limit: &str) -> Rig {
     let mut text = rig_text("").replace("2 A", limit).replace("= 16", "= 200").replace("= 4", "= 200");
@@ -23,7 +26,9 @@ fn wide_rig(hinges: usize, limit: &str) -> Rig {
         } else {
             continue;
         };
-        text += &format!("[[hinge]]\nhinge = {hinge}\nkind = \"{kind}\"\n");
+        for part in ["[[hinge]]\nhinge = ", &hinge.to_string(), "\nkind = \"", kind, "\"\n"] {
+            text.push_str(part);
+        }
     }
     Rig::read("wide.toml", &text).expect("a good rig")
 }
@@ -156,7 +161,7 @@ fn every_change_by_hand_is_found() {
     let rig = rig("[[hinge]]\nhinge = 3\nkind = \"servo\"\n");
     let good = Schedule::plan(&plan, &rig, 2).expect("a schedule");
     good.verify(&plan, &rig).expect("a good schedule");
-    let changes: [(&str, fn(&mut Schedule)); 14] = [
+    let changes: [(&str, Change); 14] = [
         ("belongs to the rig", |s| s.rig.push('2')),
         ("supply_limit_ma", |s| s.supply_limit = Milliamps(9000)),
         ("number of steps", |s| drop(s.steps.pop())),

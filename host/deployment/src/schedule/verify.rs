@@ -106,6 +106,10 @@ impl Schedule {
         self.verify_load()
     }
 
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "numbers and fresh strings; a reference would only add noise"
+    )]
     fn refuse(
         &self,
         step: usize,
@@ -236,7 +240,11 @@ impl Schedule {
     }
 }
 
-fn whole<T: PartialEq + ToString>(key: &'static str, expected: T, found: T) -> Result<(), VerifyError> {
+fn whole<T: PartialEq + ToString + Copy>(
+    key: &'static str,
+    expected: T,
+    found: T,
+) -> Result<(), VerifyError> {
     if expected == found {
         return Ok(());
     }

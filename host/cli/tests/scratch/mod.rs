@@ -1,11 +1,13 @@
 //! A folder of its own for each test, and the `zygote` command run in it.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot set up its folder fails")]
+
 use std::path::PathBuf;
 use std::process::Command;
 use std::{env, fs};
 
 /// A folder that is empty at first and gone at the end.
-pub(crate) struct Workplace {
+pub(crate) struct Scratch {
     folder: PathBuf,
 }
 
@@ -16,7 +18,7 @@ pub(crate) struct Run {
     pub(crate) errors: String,
 }
 
-impl Workplace {
+impl Scratch {
     pub(crate) fn new(name: &str) -> Self {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
         fs::remove_dir_all(&folder).ok();
@@ -51,7 +53,7 @@ impl Workplace {
     }
 }
 
-impl Drop for Workplace {
+impl Drop for Scratch {
     fn drop(&mut self) {
         fs::remove_dir_all(&self.folder).ok();
     }
