@@ -37,7 +37,7 @@ pub use hello::{
     Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, peek_versions,
 };
 pub use limits::{LimitName, Limits};
-pub use link::{Link, LinkCounters, Received, SendError, WINDOW};
+pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};
 pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};
 pub use step::{Action, Heat, MAX_AFTER, Release, Step, Turn, program_crc};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis, Millivolts};

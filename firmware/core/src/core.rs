@@ -23,8 +23,9 @@ use crate::thermal_guard::ThermalGuard;
 use crate::trip::Trip;
 use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
-    Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, Received, Report, Request,
-    Response, State, StepState, Telemetry, Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, schema,
+    Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Received, Report,
+    Request, Response, State, StepState, Telemetry, Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload,
+    peek_versions, schema,
 };
 
 /// Time between two telemetry messages.
@@ -114,7 +115,8 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             let Some(received) = self.link.receive(now, &mut bytes, accept) else { return };
             match received {
                 Received::Hello(session, payload) => {
-                    let hello = decode_payload::<Hello>(payload);
+                    // Only the front: a hello of another version may go on differently, and is answered all the same.
+                    let hello = peek_versions(payload);
                     self.greet(now, session, hello.as_ref());
                 }
                 Received::Message(payload) => {
@@ -137,7 +139,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         let Some(hello) = hello else { return };
         let speaks_ours =
             hello.min <= VERSION && hello.current >= VERSION_MIN && hello.schema == schema::hash();
-        if speaks_ours && self.link.session() != Some(session) {
+        if speaks_ours && session != NO_SESSION && self.link.session() != Some(session) {
             if self.mode.is_energised() {
                 self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
             }
