@@ -5,10 +5,11 @@ import time
 
 from bench import run
 from zygote_wire import commands, postcard, reports
+from zygote_wire.codes import Refused
 from zygote_wire.frames import LONGEST_PAYLOAD, Frame, Kind
 from zygote_wire.link import Link
 from zygote_wire.postcard import varint
-from zygote_wire.reports import State
+from zygote_wire.reports import Rejected, State
 
 UNKNOWN_KIND = 9
 
@@ -137,7 +138,7 @@ def test_the_longest_frame_is_taken_and_one_byte_more_is_not(port, session):
     assert link.status().state == State.SAFE
 
 
-def test_requests_that_cannot_be_read_are_dropped_and_the_next_one_is_answered(port, session):
+def test_requests_that_cannot_be_read_are_refused_and_the_next_one_is_answered(port, session):
     Link(port, session).hello()
     unreadable = [
         varint(7) + b"\x63",
@@ -150,5 +151,7 @@ def test_requests_that_cannot_be_read_are_dropped_and_the_next_one_is_answered(p
     answers = [
         postcard.decode(reports.Report, frame.payload) for frame in port.listen(0.3) if frame.kind == Kind.DATA
     ]
-    # Not acknowledged, so it may have come more than once.
-    assert {answer.id for answer in answers} == {10}
+    # Not acknowledged, so they may have come more than once.
+    refused = {answer.id: answer.result.refusal.code for answer in answers if isinstance(answer.result, Rejected)}
+    assert refused == {7: Refused.UNREADABLE, 8: Refused.UNREADABLE, 9: Refused.UNREADABLE}
+    assert 10 in {answer.id for answer in answers}

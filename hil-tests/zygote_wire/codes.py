@@ -26,6 +26,7 @@ class Refused(enum.IntEnum):
     LIFETIME_TOO_LONG = 17
     STOP_PRESSED = 18
     SERVO_RANGE = 19
+    UNREADABLE = 20
 
 
 class Faulted(enum.IntEnum):

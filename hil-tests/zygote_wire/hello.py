@@ -7,7 +7,7 @@ from typing import Annotated
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
 VERSION = 1
-SCHEMA = 0x52FA9EFB
+SCHEMA = 0x8E5FD574
 
 
 class ResetCause(enum.IntEnum):

@@ -57,6 +57,7 @@ codes! {
         LifetimeTooLong = 18, "an arming may not last so long (in ms)";
         StopPressed = 19, "the emergency stop is pressed";
         ServoRange = 20, "a servo pulse is outside what the board allows (at: step, in us)";
+        Unreadable = 21, "the command passed its checksum but can't be read: of another version, or a field too long";
     }
 }
 

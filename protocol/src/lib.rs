@@ -30,7 +30,7 @@ mod units;
 pub use codes::{FaultCode, RefusalCode};
 pub use command::{
     Command, PROGRESS_PER_REPLY, Refusal, Reply, Request, Response, RigId, STEPS_PER_COMMAND, State, Status,
-    StepState,
+    StepState, peek_request_id,
 };
 pub use frame::{Decoder, FrameError, FrameKind, Header, MAX_ENCODED, MAX_PAYLOAD, decode_payload, encode};
 pub use hello::{
