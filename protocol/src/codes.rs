@@ -49,7 +49,7 @@ codes! {
         HingeTaken = 10, "two steps move the same hinge (at: step)";
         OrderViolated = 11, "a step waits for itself or for a later one (at: step)";
         StepOverTemperature = 12, "a step's temperatures aren't below the ceiling, or out of order (at: step, in 0.01 °C)";
-        StepOverOnTime = 13, "a step's on-time is above the ceiling, or too short for its hold (at: step, in ms)";
+        StepOverOnTime = 13, "a step's on-time is above the limit or too short for its hold or gain window, or its rest is too short (at: step, in ms)";
         StepOverCurrent = 14, "a step alone draws more than the supply gives (at: step, in mA)";
         RigMismatch = 15, "the program is for another rig";
         RunMismatch = 16, "the program belongs to another run";
@@ -57,6 +57,7 @@ codes! {
         LifetimeTooLong = 18, "an arming may not last so long (in ms)";
         StopPressed = 19, "the emergency stop is pressed";
         ServoRange = 20, "a servo pulse is outside what the board allows (at: step, in us)";
+        Unreadable = 21, "the command passed its checksum but can't be read: of another version, or a field too long";
     }
 }
 

@@ -34,6 +34,11 @@ pub struct Request {
     pub command: Command,
 }
 
+/// The number at the front of a [`Request`], whatever follows.
+pub fn peek_request_id(payload: &[u8]) -> Option<u16> {
+    postcard::take_from_bytes(payload).ok().map(|(id, _)| id)
+}
+
 /// What a host asks.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
 pub enum Command {

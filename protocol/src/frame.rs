@@ -126,7 +126,8 @@ pub(crate) fn encode_payload<T: Serialize + ?Sized>(message: &T) -> Option<heapl
 /// Collects bytes up to a delimiter and checks them.
 #[derive(Debug)]
 pub struct Decoder {
-    buffer: [u8; MAX_ENCODED],
+    /// A frame without its delimiter.
+    buffer: [u8; MAX_ENCODED - 1],
     length: usize,
     overrun: bool,
     payload_length: usize,
@@ -135,7 +136,7 @@ pub struct Decoder {
 impl Decoder {
     /// An empty decoder.
     pub const fn new() -> Self {
-        Self { buffer: [0; MAX_ENCODED], length: 0, overrun: false, payload_length: 0 }
+        Self { buffer: [0; MAX_ENCODED - 1], length: 0, overrun: false, payload_length: 0 }
     }
 
     /// Takes bytes off the front of `bytes` up to the first frame's end, and returns its header or why it is no

@@ -30,14 +30,14 @@ mod units;
 pub use codes::{FaultCode, RefusalCode};
 pub use command::{
     Command, PROGRESS_PER_REPLY, Refusal, Reply, Request, Response, RigId, STEPS_PER_COMMAND, State, Status,
-    StepState,
+    StepState, peek_request_id,
 };
 pub use frame::{Decoder, FrameError, FrameKind, Header, MAX_ENCODED, MAX_PAYLOAD, decode_payload, encode};
 pub use hello::{
     Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, peek_versions,
 };
 pub use limits::{LimitName, Limits};
-pub use link::{Link, LinkCounters, Received, SendError, WINDOW};
+pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};
 pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};
 pub use step::{Action, Heat, MAX_AFTER, Release, Step, Turn, program_crc};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis, Millivolts};

@@ -30,8 +30,8 @@ use urgent::UrgentBox;
 pub const WINDOW: usize = 8;
 /// Something is said at least this often, so that the other end can tell silence from absence.
 const KEEP_ALIVE: Millis = Millis(200);
-/// The session of an urgent frame that belongs to none.
-const NO_SESSION: u32 = 0;
+/// The session of an urgent frame that belongs to none; no session has this number.
+pub const NO_SESSION: u32 = 0;
 
 type Payload = Vec<u8, MAX_PAYLOAD>;
 

@@ -11,8 +11,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
-use zygote_protocol::Micros;
+use zygote_protocol::{Micros, Millis};
 
+/// Most that the board's clock moves on at once. On a machine too busy to keep up, the board runs slow instead of
+/// missing a host that was just as held up.
+const MOST_AT_ONCE: Millis = Millis(50);
 /// Longest wait for bytes before the board's clock is moved on.
 const SLICE: Timespec = Timespec { tv_sec: 0, tv_nsec: 2_000_000 };
 
@@ -76,7 +79,7 @@ impl Pty {
     /// # Errors
     /// The terminal broke.
     pub fn serve(&self, board: &mut Board, stop: &AtomicBool) -> Result<(), ServeError> {
-        let (wall, start) = (Instant::now(), board.now());
+        let mut wall = Instant::now();
         let mut buffer = [0; 4096];
         let mut out = Vec::new();
         while !stop.load(Ordering::Relaxed) {
@@ -86,8 +89,9 @@ impl Pty {
                 Err(errno) => return Err(terminal("waiting")(errno)),
             }
             let readable = watched.iter().any(|fd| fd.revents().contains(PollFlags::IN));
-            let elapsed = u64::try_from(wall.elapsed().as_micros()).unwrap_or(u64::MAX);
-            let until = Micros(start.0.saturating_add(elapsed));
+            let before = std::mem::replace(&mut wall, Instant::now());
+            let elapsed = u64::try_from(wall.duration_since(before).as_micros()).unwrap_or(u64::MAX);
+            let until = Micros(board.now().0.saturating_add(elapsed.min(MOST_AT_ONCE.to_micros())));
             while board.now() < until {
                 board.advance(until)?;
             }

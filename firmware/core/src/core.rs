@@ -16,15 +16,16 @@ use crate::event_queue::EventQueue;
 use crate::handlers;
 use crate::io::{Inputs, Outputs};
 use crate::mode::Mode;
-use crate::program::{Program, index};
+use crate::program::{Program, index, refuse};
 use crate::sequencer::{Instant, Sequencer};
 use crate::supply_guard::SupplyGuard;
 use crate::thermal_guard::ThermalGuard;
 use crate::trip::Trip;
 use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
-    Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, Received, Report, Request,
-    Response, State, StepState, Telemetry, Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, schema,
+    Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Received,
+    RefusalCode, Report, Request, Response, State, StepState, Telemetry, Urgent, VERSION, VERSION_MIN,
+    WINDOW, decode_payload, peek_request_id, peek_versions, schema,
 };
 
 /// Time between two telemetry messages.
@@ -114,11 +115,12 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             let Some(received) = self.link.receive(now, &mut bytes, accept) else { return };
             match received {
                 Received::Hello(session, payload) => {
-                    let hello = decode_payload::<Hello>(payload);
+                    // Only the front: a hello of another version may go on differently, and is answered all the same.
+                    let hello = peek_versions(payload);
                     self.greet(now, session, hello.as_ref());
                 }
                 Received::Message(payload) => {
-                    let request = decode_payload::<Request>(payload);
+                    let request = decode_payload::<Request>(payload).ok_or(peek_request_id(payload));
                     self.answer(now, request);
                 }
                 Received::Urgent(payload) => {
@@ -137,7 +139,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         let Some(hello) = hello else { return };
         let speaks_ours =
             hello.min <= VERSION && hello.current >= VERSION_MIN && hello.schema == schema::hash();
-        if speaks_ours && self.link.session() != Some(session) {
+        if speaks_ours && session != NO_SESSION && self.link.session() != Some(session) {
             if self.mode.is_energised() {
                 self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
             }
@@ -161,10 +163,12 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         debug_assert!(sent.is_ok(), "a hello fits a frame");
     }
 
-    fn answer(&mut self, now: Micros, request: Option<Request>) {
-        // A message that passed its checksum but can't be read is of another version; the hello has refused those.
-        let Some(Request { id, command }) = request else { return };
-        let result = handlers::handle(self, now, command);
+    /// Does what a request asks; one that can't be read is refused under the number at its front.
+    fn answer(&mut self, now: Micros, request: Result<Request, Option<u16>>) {
+        let (id, result) = match request {
+            Ok(Request { id, command }) => (id, handlers::handle(self, now, command)),
+            Err(id) => (id.unwrap_or_default(), Err(refuse(RefusalCode::Unreadable, 0, 0, 0))),
+        };
         let sent = self.link.send(&Report::Response(Response { id, result }));
         debug_assert!(sent.is_ok(), "requests are turned away while there is no room for their answer");
     }

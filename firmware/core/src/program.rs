@@ -195,8 +195,14 @@ fn check_heat(at: u16, heat: &Heat, limits: &Limits) -> Result<(), Refusal> {
     if heat.max_on > limits.max_on {
         return Err(refuse(RefusalCode::StepOverOnTime, at, limits.max_on.0, heat.max_on.0));
     }
-    if heat.hold >= heat.max_on || heat.gain_window > heat.max_on || heat.rest < limits.min_rest {
+    if heat.hold >= heat.max_on {
         return Err(refuse(RefusalCode::StepOverOnTime, at, heat.max_on.0, heat.hold.0));
+    }
+    if heat.gain_window > heat.max_on {
+        return Err(refuse(RefusalCode::StepOverOnTime, at, heat.max_on.0, heat.gain_window.0));
+    }
+    if heat.rest < limits.min_rest {
+        return Err(refuse(RefusalCode::StepOverOnTime, at, limits.min_rest.0, heat.rest.0));
     }
     // A gain of nothing would switch the watch off.
     if heat.min_gain.0 <= 0 {
@@ -213,5 +219,46 @@ fn check_turn(at: u16, turn: &Turn, config: &Config) -> Result<(), Refusal> {
         }
         Some(pulse) => Err(refuse(RefusalCode::ServoRange, at, *range.end(), pulse)),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use zygote_protocol::{Milliamps, Millis};
+
+    const LIMITS: Limits = Limits {
+        max_temperature: CentiCelsius(12_000),
+        max_on: Millis(20_000),
+        min_rest: Millis(500),
+        supply: Milliamps(1_000),
+        link_timeout: Millis(1_000),
+    };
+    const GOOD: Heat = Heat {
+        channel: 0,
+        target: CentiCelsius(9_500),
+        hold: Millis(1_000),
+        max_on: Millis(15_000),
+        max_temperature: CentiCelsius(12_000),
+        cool: CentiCelsius(4_500),
+        rest: Millis(500),
+        min_gain: CentiCelsius(500),
+        gain_window: Millis(3_000),
+        current: Milliamps(200),
+    };
+
+    #[test]
+    fn a_refused_time_is_told_with_what_it_was_held_against() {
+        assert_eq!(check_heat(3, &GOOD, &LIMITS), Ok(()));
+        let cases = [
+            (Heat { max_on: Millis(20_001), ..GOOD }, 20_000, 20_001),
+            (Heat { hold: Millis(15_000), ..GOOD }, 15_000, 15_000),
+            (Heat { gain_window: Millis(15_001), ..GOOD }, 15_000, 15_001),
+            (Heat { rest: Millis(499), ..GOOD }, 500, 499),
+        ];
+        for (heat, expected, got) in cases {
+            let refusal = refuse(RefusalCode::StepOverOnTime, 3, expected, got);
+            assert_eq!(check_heat(3, &heat, &LIMITS), Err(refusal));
+        }
     }
 }

@@ -6,6 +6,8 @@ mod failure;
 mod identity;
 mod input;
 mod interrupt;
+#[cfg(test)]
+mod line_tests;
 mod net;
 mod output;
 mod picture;
@@ -23,7 +25,13 @@ use std::process::ExitCode;
 
 /// Shapes into stacks of panels, and stacks into shapes.
 #[derive(Parser)]
-#[command(version, about, propagate_version = true, arg_required_else_help = true)]
+#[command(
+    version,
+    about = "Shapes into stacks of panels, and stacks into shapes",
+    after_help = "Exit codes: 0 it worked, 1 it didn't, 2 the input can't be used.",
+    propagate_version = true,
+    arg_required_else_help = true
+)]
 struct Cli {
     #[command(subcommand)]
     verb: verb::Verb,

@@ -189,6 +189,12 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
         self.pause("rest", sma.rest)?;
         self.above_0("min_gain", sma.min_gain.0, sma.min_gain)?;
         self.time("gain_window", sma.gain_window)?;
+        self.hold(
+            sma.gain_window <= sma.max_on,
+            "gain_window",
+            &format!("at most max_on = {}", sma.max_on),
+            &sma.gain_window.to_string(),
+        )?;
         self.above_0("heater_resistance", sma.heater_resistance.0, sma.heater_resistance)?;
         self.above_0("thermal_resistance", sma.thermal_resistance.0, sma.thermal_resistance)?;
         self.time("time_constant", sma.time_constant)?;

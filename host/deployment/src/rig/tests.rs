@@ -105,6 +105,11 @@ fn values_that_cannot_work_are_refused_with_their_place() {
 }
 
 #[test]
+fn a_gain_watch_that_ends_after_the_heating_is_refused() {
+    insta::assert_snapshot!(changed("max_on", "gain_window = \"21 s\"\nmax_on"), @"rig.toml:15: sma.gain_window: expected at most max_on = 20 s, found 21 s");
+}
+
+#[test]
 fn a_rig_that_does_not_suit_a_plan_is_refused() {
     let unfit = |extra: &str, hinges| rig(extra).fit(hinges).expect_err("no fit").to_string();
     let refusals = [

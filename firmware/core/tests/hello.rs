@@ -1,0 +1,81 @@
+//! Who may open a session, and what the core answers to those who may not.
+
+use zygote_core::{Config, Core, NTC_10K};
+use zygote_protocol::{
+    CentiCelsius, Channels, Decoder, FrameKind, Header, Hello, HelloReply, Identity, Limits, MAX_ENCODED,
+    Micros, Milliamps, Millis, NO_SESSION, ResetCause, decode_payload, encode, schema,
+};
+
+const NOW: Micros = Micros(1_000);
+
+fn core() -> Core<1, 1, 1, 4> {
+    let identity = Identity {
+        boot: 7,
+        firmware: heapless::String::new(),
+        git: heapless::String::new(),
+        board: heapless::String::new(),
+        unique_id: [0; 12],
+        reset: ResetCause::Power,
+    };
+    let ceiling = Limits {
+        max_temperature: CentiCelsius(12_000),
+        max_on: Millis(20_000),
+        min_rest: Millis(500),
+        supply: Milliamps(1_000),
+        link_timeout: Millis(1_000),
+    };
+    let channels = Channels { heaters: 1, servos: 1, springs: 1 };
+    let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
+    Core::new(config, NOW)
+}
+
+/// What the core answers to a hello frame of these bytes.
+fn answer(core: &mut Core<1, 1, 1, 4>, session: u32, payload: &[u8]) -> Option<(Header, HelloReply)> {
+    let mut frame = [0; MAX_ENCODED];
+    let header = Header { kind: FrameKind::Hello, session, seq: 0, ack: 0 };
+    let length = encode(header, payload, &mut frame)?;
+    core.handle_bytes(NOW, &frame[..length]);
+    let length = core.poll_transmit(NOW, &mut frame);
+    let mut decoder = Decoder::new();
+    let header = decoder.next(&mut &frame[..length])?.ok()?;
+    Some((header, decode_payload(decoder.payload())?))
+}
+
+/// The versions, the schema hash in its five bytes, and what follows in some later version.
+fn hello(min: u8, current: u8, schema: u32, more: &[u8]) -> Vec<u8> {
+    let mut bytes = vec![min, current];
+    bytes.extend((0..5).map(|at| (schema >> (7 * at) & 0x7f) as u8 | if at < 4 { 0x80 } else { 0 }));
+    bytes.extend(more);
+    bytes
+}
+
+/// The core opened no session: it never speaks unasked.
+fn is_closed(core: &mut Core<1, 1, 1, 4>) -> bool {
+    core.poll_transmit(NOW.plus(Millis(10_000)), &mut [0; MAX_ENCODED]) == 0
+}
+
+#[test]
+fn a_hello_of_this_version_opens_its_session() {
+    let mut core = core();
+    assert_eq!(decode_payload(&hello(1, 1, schema::hash(), &[])), Some(Hello::ours()));
+    let (header, reply) = answer(&mut core, 5, &hello(1, 1, schema::hash(), &[])).unwrap();
+    assert_eq!((header.kind, header.session, reply.identity.boot), (FrameKind::HelloReply, 5, 7));
+    assert!(!is_closed(&mut core));
+}
+
+#[test]
+fn a_hello_of_a_later_version_with_more_fields_is_answered_and_opens_nothing() {
+    let mut core = core();
+    let (header, reply) = answer(&mut core, 5, &hello(2, 3, 0x1234_5678, &[1, 2, 3])).unwrap();
+    assert_eq!((header.kind, header.session), (FrameKind::HelloReply, 5));
+    assert_eq!((reply.min, reply.current), (1, 1));
+    assert!(is_closed(&mut core));
+}
+
+#[test]
+fn a_hello_of_session_0_is_answered_and_opens_nothing() {
+    let mut core = core();
+    let (header, _) = answer(&mut core, NO_SESSION, &hello(1, 1, schema::hash(), &[])).unwrap();
+    assert_eq!(header.session, NO_SESSION);
+    assert!(is_closed(&mut core));
+}

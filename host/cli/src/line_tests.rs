@@ -1,0 +1,163 @@
+//! Deployments over a line that damages, loses or ends: the real host and the real core with something in between.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use crate::sim_rig::{self, SimTransport};
+use std::cell::Cell;
+use std::io;
+use std::path::Path;
+use zygote_controller::{
+    ConnectError, DeployError, Deployment, EventLog, HingeOutcome, Outcome, RunReport, Session, Transport,
+    deploy,
+};
+use zygote_deployment::{Rig, Schedule};
+use zygote_protocol::{Micros, Millis, State};
+use zygote_stacking::{Model, Request};
+
+/// A simulated board behind a line that flips a bit in one byte of so many, and is dead from some time on.
+struct BadLine {
+    sim: SimTransport,
+    one_in: u64,
+    dead_from: Micros,
+    random: u64,
+}
+
+impl BadLine {
+    fn damage(&mut self, bytes: &[u8]) -> Vec<u8> {
+        let mut next = || {
+            self.random ^= self.random << 13;
+            self.random ^= self.random >> 7;
+            self.random ^= self.random << 17;
+            self.random
+        };
+        bytes
+            .iter()
+            .map(|byte| if next() % self.one_in == 0 { byte ^ 1 << (next() % 8) } else { *byte })
+            .collect()
+    }
+
+    fn is_dead(&self) -> bool {
+        self.now() >= self.dead_from
+    }
+}
+
+impl Transport for BadLine {
+    fn now(&self) -> Micros {
+        self.sim.now()
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let damaged = self.damage(bytes);
+        if self.is_dead() { Ok(()) } else { self.sim.send(&damaged) }
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
+        let count = self.sim.receive(buffer, deadline)?;
+        if self.is_dead() {
+            return Ok(0);
+        }
+        let damaged = self.damage(&buffer[..count]);
+        buffer[..count].copy_from_slice(&damaged);
+        Ok(count)
+    }
+
+    fn name(&self) -> String {
+        "bad line".to_owned()
+    }
+}
+
+fn repository() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Fourteen panels on the mixed rig.
+fn job() -> (Rig, Schedule) {
+    let model = Model::read(&repository().join("models/i14.txt"), None).unwrap();
+    let request = Request { piles: 2, root: None, thickness: 0.01, panel_length_mm: 90.0, seed: 0 };
+    let plan = zygote_stacking::plan(&model, &request).unwrap();
+    let text = std::fs::read_to_string(repository().join("models/rigs/mixed.toml")).unwrap();
+    let rig = Rig::read("mixed.toml", &text).unwrap();
+    let schedule = Schedule::plan(&plan, &rig, 1).unwrap();
+    (rig, schedule)
+}
+
+fn line(rig: &Rig, schedule: &Schedule, one_in: u64, dead_from: Micros) -> BadLine {
+    let Ok(board) = sim_rig::board(rig, Some(schedule), 1) else { panic!("the mixed rig can be simulated") };
+    BadLine { sim: SimTransport::new(board), one_in, dead_from, random: 0x1234_5678_9abc_def1 }
+}
+
+/// Deploys; `interrupted` is asked with the number of times it was asked before.
+fn run(
+    line: BadLine,
+    rig: &Rig,
+    schedule: &Schedule,
+    interrupted: impl Fn(u32) -> bool,
+) -> (Result<RunReport, DeployError>, BadLine) {
+    let mut session = Session::connect(line, 9, Millis(5_000)).unwrap();
+    let asked = Cell::new(0);
+    let deployment = Deployment {
+        schedule,
+        rig,
+        run: 1,
+        clear: false,
+        interrupted: &|| interrupted(asked.replace(asked.get() + 1)),
+    };
+    let report = deploy(&mut session, &deployment, &mut EventLog::new(io::sink()), &mut |_| {});
+    (report, session.into_transport())
+}
+
+const NEVER: Micros = Micros(u64::MAX);
+const CLEAN: u64 = u64::MAX;
+
+#[test]
+fn a_deployment_survives_a_line_that_damages_one_byte_in_300() {
+    let (rig, schedule) = job();
+    let (report, _) = run(line(&rig, &schedule, 300, NEVER), &rig, &schedule, |_| false);
+    let report = report.unwrap();
+    assert!(report.is_deployed(), "{report}");
+    assert!(report.damaged_frames > 10, "{} damaged frames are no bad line", report.damaged_frames);
+}
+
+#[test]
+fn s3_a_line_that_dies_ends_in_a_lost_run_and_a_board_with_everything_off() {
+    let (rig, schedule) = job();
+    let (report, line) = run(line(&rig, &schedule, CLEAN, Micros(8_000_000)), &rig, &schedule, |_| false);
+    let report = report.unwrap();
+    assert!(matches!(report.outcome, Outcome::Lost(_)), "{report}");
+    assert!(report.count(HingeOutcome::Opened) > 0 && report.count(HingeOutcome::NotMoved) > 0, "{report}");
+    let board = line.sim.board();
+    assert_eq!(board.core().state(), State::Safe);
+    assert!(!board.core().outputs().main_switch);
+}
+
+#[test]
+fn s8_a_user_who_stops_gets_a_confirmed_stop_and_a_report() {
+    let (rig, schedule) = job();
+    let (report, line) = run(line(&rig, &schedule, CLEAN, NEVER), &rig, &schedule, |asked| asked > 100);
+    let report = report.unwrap();
+    assert_eq!(report.outcome, Outcome::Stopped);
+    assert!(report.count(HingeOutcome::NotMoved) > 0, "{report}");
+    assert_eq!(line.sim.board().core().state(), State::Safe);
+}
+
+#[test]
+fn a_stopped_board_wants_a_person_before_the_next_run() {
+    let (rig, schedule) = job();
+    let (_, mut line) = run(line(&rig, &schedule, CLEAN, NEVER), &rig, &schedule, |asked| asked > 100);
+    line.random = 1;
+    let mut session = Session::connect(line, 10, Millis(5_000)).unwrap();
+    let deployment =
+        Deployment { schedule: &schedule, rig: &rig, run: 2, clear: false, interrupted: &|| false };
+    let mut log = EventLog::new(io::sink());
+    let refused = deploy(&mut session, &deployment, &mut log, &mut |_| {});
+    assert!(matches!(refused, Err(DeployError::Safe { fault: Some(_) })), "{refused:?}");
+    let cleared = Deployment { clear: true, ..deployment };
+    assert!(deploy(&mut session, &cleared, &mut log, &mut |_| {}).unwrap().is_deployed());
+}
+
+#[test]
+fn nobody_at_the_other_end_is_told_by_name_after_the_time_given() {
+    let (rig, schedule) = job();
+    let dead = line(&rig, &schedule, CLEAN, Micros(0));
+    let error = Session::connect(dead, 9, Millis(2_000)).err().unwrap();
+    assert!(matches!(error, ConnectError::NoAnswer { waited_ms: 2_000, heard: 0, .. }), "{error}");
+}
