@@ -62,11 +62,21 @@ impl Document {
         let expected = format!("2 vertex {vertices}");
         reader.each("", "edges_vertices", &edge_list, &expected, |_, edge| within(&edge.0, vertex_count));
         let face_lists = reader.array(file.edge_faces, "", "edges_faces", Some(edge_count))?;
-        reader.each("", "edges_faces", &face_lists, "2 panel numbers in range for a hinge, 1 for a cut edge", |index, faces| {
-            let panels_there = faces.panels();
-            let wanted = if index + 1 < panels { 2 } else { 1 };
-            if panels_there.len() == wanted { within(panels_there, panels) } else { Some(format!("{panels_there:?}")) }
-        });
+        reader.each(
+            "",
+            "edges_faces",
+            &face_lists,
+            "2 panel numbers in range for a hinge, 1 for a cut edge",
+            |index, faces| {
+                let panels_there = faces.panels();
+                let wanted = if index + 1 < panels { 2 } else { 1 };
+                if panels_there.len() == wanted {
+                    within(panels_there, panels)
+                } else {
+                    Some(format!("{panels_there:?}"))
+                }
+            },
+        );
         let (target, _, heads) = reader.frame(file.target, "", panels)?;
         let (zygote, orders, zygote_heads) = reader.frame(frame, ZYGOTE, panels)?;
         let hinges = reader.array(file.hinges, "", "zygote:hinges", Some(panels - 1))?;
@@ -74,10 +84,16 @@ impl Document {
             within(&hinge.panels, panels)
         });
         let piles = reader.array(file.piles, "", "zygote:piles", None)?;
-        reader.each("", "zygote:piles", &piles, "a cell of 2 integers and panel numbers in range", |_, pile| {
-            let far = pile.panels.iter().find(|panel| **panel >= panels)?;
-            Some(format!("panel {far}"))
-        });
+        reader.each(
+            "",
+            "zygote:piles",
+            &piles,
+            "a cell of 2 integers and panel numbers in range",
+            |_, pile| {
+                let far = pile.panels.iter().find(|panel| **panel >= panels)?;
+                Some(format!("panel {far}"))
+            },
+        );
         let face_orders = reader.array(orders, ZYGOTE, "faceOrders", None)?;
         let thickness = heads.get("zygote:thickness");
         let length = thickness.and_then(Value::as_f64).filter(|t| *t > 0.0);
@@ -131,7 +147,13 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// The array under a key. Where it isn't one or has the wrong length, nothing further can be read.
-    fn array<T>(&mut self, list: Listed<T>, prefix: &str, key: &str, length: Option<usize>) -> Option<Column<T>> {
+    fn array<T>(
+        &mut self,
+        list: Listed<T>,
+        prefix: &str,
+        key: &str,
+        length: Option<usize>,
+    ) -> Option<Column<T>> {
         let place = || format!("{prefix}{key}");
         let wanted = length.map_or("an array".into(), |length| format!("an array of {length} entries"));
         let Some(column) = list.0 else {

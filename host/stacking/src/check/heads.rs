@@ -27,7 +27,8 @@ pub(super) fn check(document: &Document, report: &mut Report) {
     fixed(frame, ZYGOTE, &zygote, "2D", report);
     let mut plain = |key: &str, expected: &str, test: &dyn Fn(&Value) -> bool| {
         let found = under(file, key);
-        report.require(test(found), Rule::Head, || (key.into(), format!("expected {expected}, found {found}")));
+        report
+            .require(test(found), Rule::Head, || (key.into(), format!("expected {expected}, found {found}")));
     };
     let is_length = |value: &Value| value.as_f64().is_some_and(|length| length > 0.0);
     plain("file_creator", "name and version", &|value| value.as_str().is_some_and(|name| !name.is_empty()));

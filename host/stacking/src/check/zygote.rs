@@ -35,9 +35,10 @@ fn check_orders(document: &Document, report: &mut Report) {
     for (index, &Order([upper, lower, s])) in document.face_orders.entries.iter().enumerate() {
         let odd = document.face_orders.odd.get(&index);
         let expected = usize::try_from(lower).ok().and_then(|lower| above.get_mut(lower));
-        let good = odd.is_none() && expected.is_some_and(|expected| {
-            *expected != (NONE, 0) && std::mem::replace(expected, (NONE, 0)) == (upper, s)
-        });
+        let good = odd.is_none()
+            && expected.is_some_and(|expected| {
+                *expected != (NONE, 0) && std::mem::replace(expected, (NONE, 0)) == (upper, s)
+            });
         report.require(good, Rule::FaceOrders, || {
             let message = "expected [upper, lower, s] of two consecutive heights, each once, s by the lower panel's normal";
             let found = odd.map_or_else(|| format!("[{upper},{lower},{s}]"), String::clone);
