@@ -7,7 +7,9 @@
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
 
 mod arcs;
+mod bridge_tree;
 mod check;
+mod cuts;
 mod dual;
 pub mod fold;
 mod folding_map;
