@@ -121,7 +121,8 @@ impl Item for HingeEntry {
         let letter = read.field(2)?.word()?;
         let side = Side::ALL.into_iter().find(|side| side.letter().as_bytes() == letter)?;
         let opening = read.field(3)?.number()?.real();
-        let opening_deg = [90, 180, 270].into_iter().find(|degrees| f64::from(*degrees) == opening)?;
+        let is_opening = |degrees: &u16| f64::from(*degrees).total_cmp(&opening).is_eq();
+        let opening_deg = [90, 180, 270].into_iter().find(is_opening)?;
         Some(Self { kind, panels, side, opening_deg })
     }
 

@@ -29,8 +29,8 @@ impl<K: Keys> Object<K> {
         Self { fields, rest, other, keys: PhantomData }
     }
 
-    fn no_object<E>(value: Value) -> Result<Self, E> {
-        Ok(Self::of([const { None }; MOST], Map::new(), Some(value)))
+    fn no_object(value: Value) -> Self {
+        Self::of([const { None }; MOST], Map::new(), Some(value))
     }
 
     /// What stands under a key, by the key's place among the keys.
@@ -108,30 +108,30 @@ impl<'de, K: Keys> Visitor<'de> for ObjectVisitor<K> {
         while let Some(value) = list.next_element::<Value>()? {
             values.push(value);
         }
-        Object::no_object(values.into())
+        Ok(Object::no_object(values.into()))
     }
 
     fn visit_bool<E>(self, truth: bool) -> Result<Object<K>, E> {
-        Object::no_object(truth.into())
+        Ok(Object::no_object(truth.into()))
     }
 
     fn visit_u64<E>(self, number: u64) -> Result<Object<K>, E> {
-        Object::no_object(number.into())
+        Ok(Object::no_object(number.into()))
     }
 
     fn visit_i64<E>(self, number: i64) -> Result<Object<K>, E> {
-        Object::no_object(number.into())
+        Ok(Object::no_object(number.into()))
     }
 
     fn visit_f64<E>(self, number: f64) -> Result<Object<K>, E> {
-        Object::no_object(number.into())
+        Ok(Object::no_object(number.into()))
     }
 
     fn visit_str<E>(self, text: &str) -> Result<Object<K>, E> {
-        Object::no_object(text.into())
+        Ok(Object::no_object(text.into()))
     }
 
     fn visit_unit<E>(self) -> Result<Object<K>, E> {
-        Object::no_object(Value::Null)
+        Ok(Object::no_object(Value::Null))
     }
 }

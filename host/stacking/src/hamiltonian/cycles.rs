@@ -115,7 +115,9 @@ impl Cycles {
                 let Some((mut piece, forwards)) = found else { break };
                 if !forwards {
                     piece.reverse();
-                    piece.iter().for_each(|segment| self.segments.turn(*segment));
+                    for segment in &piece {
+                        self.segments.turn(*segment);
+                    }
                 }
                 row.extend(piece);
             }

@@ -19,7 +19,7 @@ impl Segment {
 
 /// All segments, and where every node is.
 pub(super) struct Segments {
-    segments: Vec<Segment>,
+    all: Vec<Segment>,
     unused: Vec<usize>,
     /// Of every node its segment and its place there.
     places: Vec<(u32, u32)>,
@@ -36,7 +36,7 @@ fn short(number: usize) -> u32 {
 impl Segments {
     /// No segments yet, and so many nodes.
     pub(super) fn new(nodes: usize) -> Self {
-        Self { segments: Vec::new(), unused: Vec::new(), places: vec![NOWHERE; nodes] }
+        Self { all: Vec::new(), unused: Vec::new(), places: vec![NOWHERE; nodes] }
     }
 
     /// Whether a node is in a segment.
@@ -46,38 +46,38 @@ impl Segments {
 
     /// The segment of a node.
     pub(super) fn of(&self, node: usize) -> &Segment {
-        &self.segments[self.places[node].0 as usize]
+        &self.all[self.places[node].0 as usize]
     }
 
     /// The cycle of a node and its position there: a number that grows along the cycle.
     pub(super) fn position(&self, node: usize) -> (usize, u64) {
         let (segment, index) = self.places[node];
-        let segment = &self.segments[segment as usize];
+        let segment = &self.all[segment as usize];
         let along = if segment.backwards { short(segment.nodes.len()) - 1 - index } else { index };
         (segment.cycle, (segment.rank as u64) << 32 | u64::from(along))
     }
 
     /// The first node, in the direction of the cycle.
     pub(super) fn first(&self, segment: usize) -> usize {
-        let Segment { nodes, backwards, .. } = &self.segments[segment];
+        let Segment { nodes, backwards, .. } = &self.all[segment];
         nodes[if *backwards { nodes.len() - 1 } else { 0 }] as usize
     }
 
     /// The last node, in the direction of the cycle.
     pub(super) fn last(&self, segment: usize) -> usize {
-        let Segment { nodes, backwards, .. } = &self.segments[segment];
+        let Segment { nodes, backwards, .. } = &self.all[segment];
         nodes[if *backwards { 0 } else { nodes.len() - 1 }] as usize
     }
 
     /// Turns a segment round.
     pub(super) fn turn(&mut self, segment: usize) {
-        let backwards = &mut self.segments[segment].backwards;
+        let backwards = &mut self.all[segment].backwards;
         *backwards = !*backwards;
     }
 
     /// Puts a segment into a cycle and tells how long it is.
     pub(super) fn place(&mut self, segment: usize, cycle: usize, rank: usize) -> usize {
-        let segment = &mut self.segments[segment];
+        let segment = &mut self.all[segment];
         (segment.cycle, segment.rank) = (cycle, rank);
         segment.nodes.len()
     }
@@ -90,15 +90,15 @@ impl Segments {
     }
 
     fn add(&mut self, nodes: Vec<u32>, backwards: bool) -> usize {
-        let number = self.unused.pop().unwrap_or(self.segments.len());
+        let number = self.unused.pop().unwrap_or(self.all.len());
         for (index, node) in nodes.iter().enumerate() {
             self.places[*node as usize] = (short(number), short(index));
         }
         let segment = Segment { nodes, backwards, ..Segment::default() };
-        if number == self.segments.len() {
-            self.segments.push(segment);
+        if number == self.all.len() {
+            self.all.push(segment);
         } else {
-            self.segments[number] = segment;
+            self.all[number] = segment;
         }
         number
     }
@@ -107,7 +107,7 @@ impl Segments {
     /// node stays what it was.
     pub(super) fn split_after(&mut self, node: usize) -> Option<usize> {
         let (number, index) = (self.places[node].0 as usize, self.places[node].1 as usize);
-        let segment = &mut self.segments[number];
+        let segment = &mut self.all[number];
         let backwards = segment.backwards;
         let beyond = if backwards {
             let kept = segment.nodes.split_off(index);
@@ -127,10 +127,10 @@ impl Segments {
     pub(super) fn merge_small(&mut self, row: Vec<usize>) -> Vec<usize> {
         let mut merged: Vec<usize> = Vec::with_capacity(row.len());
         for next in row {
-            let length = |number: usize| self.segments[number].nodes.len();
+            let length = |number: usize| self.all[number].nodes.len();
             match merged.last() {
                 Some(&before) if length(before) + length(next) <= Segment::LONGEST => {
-                    self.append(before, next)
+                    self.append(before, next);
                 }
                 _ => merged.push(next),
             }
@@ -140,12 +140,12 @@ impl Segments {
 
     /// Appends the nodes of a segment, in the direction of the cycle, to the one before it.
     fn append(&mut self, before: usize, next: usize) {
-        let Segment { mut nodes, backwards, .. } = std::mem::take(&mut self.segments[next]);
+        let Segment { mut nodes, backwards, .. } = std::mem::take(&mut self.all[next]);
         self.unused.push(next);
         if backwards {
             nodes.reverse();
         }
-        let segment = &mut self.segments[before];
+        let segment = &mut self.all[before];
         let mut from = segment.nodes.len();
         if segment.backwards {
             segment.nodes.reverse();
