@@ -7,7 +7,7 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use std::fs;
 use std::path::PathBuf;
-use zygote_stacking::{check, fold};
+use zygote_stacking::fold;
 
 /// Places listed for each broken rule.
 const SHOWN_PER_RULE: usize = 5;
@@ -25,8 +25,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.plan.display();
     let bytes =
         fs::read(&arguments.plan).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
-    let file = fold::parse(&bytes).with_context(|| format!("{name}: no plan")).or_bad_input()?;
-    let report = check(&file);
+    let report = fold::check(&bytes).with_context(|| format!("{name}: no plan")).or_bad_input()?;
     if report.is_valid() {
         say(format_args!("{name}: valid: {}", summary(&report.figures)));
         return Ok(());

@@ -5,7 +5,7 @@ use crate::output::{say, write_file};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use std::path::PathBuf;
-use zygote_stacking::{Figures, Model, PlanError, Request, check, fold};
+use zygote_stacking::{Figures, Model, PlanError, Request, fold};
 
 /// Arguments of `zygote plan`.
 #[derive(Args)]
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     })?;
     let bytes = fold::write(&plan).context("the plan can't be written as JSON").or_failed()?;
-    let report = check(&fold::parse(&bytes).or_failed()?);
+    let report = fold::check(&bytes).or_failed()?;
     if !report.is_valid() {
         let lines = report.lines(3).join("\n  ");
         return Err(Failure::Failed(anyhow!(

@@ -47,31 +47,4 @@ impl Stack {
         let piles = piles.collect();
         Self { piles, facing }
     }
-
-    /// All bridges that are possible.
-    pub(crate) fn joints(&self, dual: &Dual) -> Vec<Joint> {
-        let mut place = vec![(0, 0); self.facing.len()];
-        for (number, pile) in self.piles.iter().enumerate() {
-            for (height, panel) in pile.iter().enumerate() {
-                place[*panel] = (number, height);
-            }
-        }
-        let mut joints = Vec::new();
-        for (a, (pile, height)) in place.iter().enumerate() {
-            for edge in 0..4 {
-                let Some(across) = dual.across(a, edge) else { continue };
-                let b = across.panel;
-                let (other_pile, other_height) = place[b];
-                if a < b && other_pile != *pile && other_height == *height {
-                    joints.push(Joint {
-                        panels: [a, b],
-                        edges: [edge, across.edge],
-                        piles: [*pile, other_pile],
-                        sides: [self.facing[a].side(edge), self.facing[b].side(across.edge)],
-                    });
-                }
-            }
-        }
-        joints
-    }
 }

@@ -20,9 +20,11 @@ pub(crate) struct Dual {
     across: Vec<[Option<Across>; 4]>,
 }
 
-/// One side of one panel, at its lattice edge (lower end first).
+/// One side of one panel, at its lattice edge.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Flank {
-    ends: (Point, Point),
+    /// Sorts and compares faster than the ends themselves.
+    place: u128,
     panel: usize,
     edge: usize,
 }
@@ -38,12 +40,12 @@ impl Dual {
         for (panel, quad) in quads.iter().enumerate() {
             for edge in 0..4 {
                 let (p, q) = (quad[edge], quad[(edge + 1) % 4]);
-                flanks.push(Flank { ends: (p.min(q), p.max(q)), panel, edge });
+                flanks.push(Flank { place: square::edge_name(p, q), panel, edge });
             }
         }
-        flanks.sort_by_key(|flank| (flank.ends, flank.panel));
+        flanks.sort_unstable();
         let mut dual = Self { across: vec![[None; 4]; quads.len()] };
-        for meeting in flanks.chunk_by(|a, b| a.ends == b.ends) {
+        for meeting in flanks.chunk_by(|a, b| a.place == b.place) {
             match meeting {
                 [_] => {}
                 [a, b] => dual.join_two(surface, a, b)?,
@@ -79,7 +81,7 @@ impl Dual {
             return Err(SurfaceError::Unlike {
                 first: surface.name(a.panel),
                 second: surface.name(b.panel),
-                edge: edge_name(a),
+                edge: edge_name(surface, a),
             });
         }
         // Two squares back to back meet here too, but no hinge opens by 0 or 360 degrees.
@@ -151,11 +153,13 @@ impl Dual {
     }
 }
 
-fn edge_name(flank: &Flank) -> String {
-    format!("{} {}", At(flank.ends.0), At(flank.ends.1))
+fn edge_name(surface: &Surface, flank: &Flank) -> String {
+    let quad = &surface.quads()[flank.panel];
+    let (p, q) = (quad[flank.edge], quad[(flank.edge + 1) % 4]);
+    format!("{} {}", At(p.min(q)), At(p.max(q)))
 }
 
 fn crossing(surface: &Surface, meeting: &[Flank]) -> SurfaceError {
     let faces: Vec<String> = meeting.iter().map(|flank| surface.name(flank.panel)).collect();
-    SurfaceError::Crossing { edge: edge_name(&meeting[0]), faces: faces.join(", ") }
+    SurfaceError::Crossing { edge: edge_name(surface, &meeting[0]), faces: faces.join(", ") }
 }

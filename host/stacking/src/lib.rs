@@ -7,8 +7,10 @@
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
 
 mod arcs;
+mod bridge_tree;
 mod check;
 mod cut_edges;
+mod cuts;
 mod dual;
 pub mod fold;
 mod folding_map;

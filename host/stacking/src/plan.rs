@@ -80,7 +80,7 @@ pub struct Hinge {
 }
 
 /// A column of panels on one cell.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Pile {
     /// The cell (i, j), covering [i, i+1] x [j, j+1].
     pub cell: [i32; 2],

@@ -1,7 +1,8 @@
 //! From a model to a plan: strip, arcs, layout, hinges. The command `zygote plan` calls it.
 
-use crate::arcs::{Joint, Stack};
-use crate::dual::Dual;
+use crate::arcs::Stack;
+use crate::bridge_tree;
+use crate::cuts::Cuts;
 use crate::hamiltonian::{self, NoStrip, Strip};
 use crate::hinges;
 use crate::layout::{self, Layout};
@@ -9,16 +10,13 @@ use crate::plan::{Pile, Plan, Source};
 use crate::random::Random;
 use crate::readers::Model;
 use crate::tree_path;
-use std::cmp::Ordering;
 
 /// Strips that are tried, each from another seed, until the piles of one find room.
 const STRIPS: u64 = 16;
-/// Panels looked at for each strip, over all the ways of cutting it.
-const CUT_BUDGET: usize = 4_000_000;
+/// Ways of cutting a strip that are tried.
+const CUTS: usize = 600;
 /// Layouts tried for each way of cutting a strip.
 const LAYOUTS: usize = 24;
-/// Panels looked at to compare the depths of layouts that are equally compact.
-const DEPTH_BUDGET: usize = 2_000_000;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -96,17 +94,19 @@ pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     let panels = model.surface.len();
     check_request(panels, request)?;
     let neighbours = model.dual.neighbours();
-    let mut search = Search::new(&model.dual, request, panels);
+    let mut search = Search::new(request, panels);
     for number in 0..STRIPS {
         let seed = request.seed.wrapping_add(number.wrapping_mul(0x9E37_79B9));
-        match hamiltonian::find(&neighbours, seed) {
-            Ok(strip) => search.try_strip(&strip),
+        let strip = match hamiltonian::find(&neighbours, seed) {
+            Ok(strip) => strip,
             // A proof, or a search that failed on the first seed already; later seeds may fail as they like.
             Err(reason) if number == 0 => return Err(reason.into()),
-            Err(_) => {}
-        }
+            Err(_) => continue,
+        };
+        let cuts = Cuts::of(&strip.order, request.piles, &model.dual);
+        search.try_cuts(&cuts, strip.closed);
         if let Some(best) = search.best {
-            return Ok(best.into_plan(model, request));
+            return Ok(best.into_plan(&strip, &cuts, model, request));
         }
     }
     Err(PlanError::NoLayout {
@@ -141,57 +141,45 @@ fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
 
 /// Piles that found room.
 struct Found {
-    stack: Stack,
+    /// Where the first arc begins.
+    offset: usize,
     layout: Layout,
     /// Less is better: area of the grid, half its circumference, depth of the tree path.
     score: (i32, i32, usize),
 }
 
 /// The search over the ways of cutting a strip.
-struct Search<'a> {
-    dual: &'a Dual,
+struct Search {
     piles: usize,
+    height: usize,
     random: Random,
     best: Option<Found>,
     cuts: usize,
     layouts: usize,
     most: usize,
-    panels: usize,
-    depths: usize,
 }
 
-impl<'a> Search<'a> {
-    fn new(dual: &'a Dual, request: &Request, panels: usize) -> Self {
+impl Search {
+    fn new(request: &Request, panels: usize) -> Self {
         let random = Random::new(request.seed, 1 << 32);
-        Self {
-            dual,
-            piles: request.piles,
-            random,
-            best: None,
-            cuts: 0,
-            layouts: 0,
-            most: 1,
-            panels,
-            depths: 0,
-        }
+        let (piles, height) = (request.piles, panels / request.piles);
+        Self { piles, height, random, best: None, cuts: 0, layouts: 0, most: 1 }
     }
 
     /// Tries to cut a strip at many places and to lay out the piles of each.
-    fn try_strip(&mut self, strip: &Strip) {
-        let height = self.panels / self.piles;
-        let places = if strip.closed && self.piles > 1 { height } else { 1 };
+    fn try_cuts(&mut self, cuts: &Cuts<'_>, closed: bool) {
+        let places = if closed && self.piles > 1 { self.height } else { 1 };
         let mut offsets: Vec<usize> = (0..places).collect();
         self.random.shuffle(&mut offsets);
-        offsets.truncate((CUT_BUDGET / self.panels).max(8));
+        offsets.truncate(CUTS);
         for offset in offsets {
-            let stack = Stack::cut(&strip.order, offset, self.piles, self.dual);
-            self.try_stack(&stack);
+            self.try_offset(cuts, offset);
         }
     }
 
-    fn try_stack(&mut self, stack: &Stack) {
+    fn try_offset(&mut self, cuts: &Cuts<'_>, offset: usize) {
         self.cuts += 1;
-        let joints = stack.joints(self.dual);
+        let joints = cuts.joints(offset);
         for _ in 0..if self.piles == 1 { 1 } else { LAYOUTS } {
             self.layouts += 1;
             let layout = match layout::grow(self.piles, &joints, &mut self.random) {
@@ -202,34 +190,26 @@ impl<'a> Search<'a> {
                 }
             };
             let (area, rim) = layout::compactness(&layout.cells.iter());
-            let compared = self.best.as_ref().map(|best| (area, rim).cmp(&(best.score.0, best.score.1)));
-            let affordable = self.depths * self.panels < DEPTH_BUDGET;
-            if compared == Some(Ordering::Greater) || (compared == Some(Ordering::Equal) && !affordable) {
-                continue;
-            }
-            self.depths += 1;
-            let score = (area, rim, depth(stack, &layout.bridges));
+            let bridges = layout.bridges.iter().map(|joint| {
+                let (_, height) = cuts.pile_and_height(joint.panels[0], offset);
+                (joint.piles, height)
+            });
+            let depth = bridge_tree::depth(self.piles, self.height, &bridges.collect::<Vec<_>>());
+            let score = (area, rim, depth);
             if self.best.as_ref().is_none_or(|best| score < best.score) {
-                self.best = Some(Found { stack: stack.clone(), layout, score });
+                self.best = Some(Found { offset, layout, score });
             }
         }
     }
 }
 
-/// How deep the tree path is, from its middle.
-fn depth(stack: &Stack, bridges: &[Joint]) -> usize {
-    let mut joined = vec![Vec::new(); stack.facing.len()];
-    let folds = stack.piles.iter().flat_map(|pile| pile.windows(2)).map(|pair| [pair[0], pair[1]]);
-    for [a, b] in folds.chain(bridges.iter().map(|joint| joint.panels)) {
-        joined[a].push(b);
-        joined[b].push(a);
-    }
-    tree_path::centre(&joined).1
-}
-
 impl Found {
-    fn into_plan(self, model: &Model, request: &Request) -> Plan {
-        let Self { stack, layout, .. } = self;
+    fn into_plan(self, strip: &Strip, cuts: &Cuts<'_>, model: &Model, request: &Request) -> Plan {
+        let Self { offset, mut layout, .. } = self;
+        let stack = Stack::cut(&strip.order, offset, request.piles, &model.dual);
+        for (turn, pile) in layout.turns.iter_mut().zip(&stack.piles) {
+            *turn += cuts.turn_of(pile[0], offset);
+        }
         let target = model.surface.quads().to_vec();
         let mut facing = stack.facing;
         let mut zygote = vec![[[0; 2]; 4]; facing.len()];

@@ -50,6 +50,26 @@ pub(crate) fn least_corner(quad: &Quad) -> Point {
     [0, 1, 2].map(|axis| quad[0][axis].min(quad[2][axis]))
 }
 
+/// A number that names a point and one of up to eight things that it may have.
+fn name(point: Point, which: usize) -> u128 {
+    // Shifted by 2^31 the coordinates keep their order as numbers without a sign.
+    let place = point.iter().fold(0, |place, c| place << 32 | u128::from(c.cast_unsigned() ^ (1 << 31)));
+    place << 3 | which as u128
+}
+
+/// A number that names the lattice edge between two points.
+pub(crate) fn edge_name(p: Point, q: Point) -> u128 {
+    let axis = (0..3).find(|axis| p[*axis] != q[*axis]);
+    name(p.min(q), axis.unwrap_or_default())
+}
+
+/// A number that names the place of a unit square and its outer side.
+pub(crate) fn place_name(quad: &Quad) -> u128 {
+    let normal = normal(quad);
+    let which = (0..3).find(|axis| normal[*axis] != 0).unwrap_or_default();
+    name(least_corner(quad), 2 * which + usize::from(normal[which] > 0))
+}
+
 /// Prints a lattice point the way people write it.
 pub(crate) struct At(pub(crate) Point);
 

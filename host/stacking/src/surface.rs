@@ -1,7 +1,6 @@
 //! The surface to build, as a set of unit squares. The readers make it, `Dual` says which squares are neighbours.
 
-use crate::square::{self, At, Point, Quad};
-use std::collections::BTreeMap;
+use crate::square::{self, At, Quad};
 
 /// Why a set of squares is no surface that panels can build.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -74,15 +73,18 @@ impl Surface {
         if surface.quads.is_empty() {
             return Err(SurfaceError::Empty);
         }
-        let mut taken: BTreeMap<(Point, Point), usize> = BTreeMap::new();
-        for (panel, quad) in surface.quads.iter().enumerate() {
-            if !square::is_unit(quad) {
-                let corners = quad.map(|p| At(p).to_string()).join(" ");
-                return Err(SurfaceError::NotUnitSquare { face: surface.name(panel), corners });
-            }
-            if let Some(first) = taken.insert((square::least_corner(quad), square::normal(quad)), panel) {
-                return Err(SurfaceError::Twice { face: surface.name(panel), first: surface.name(first) });
-            }
+        // Of what is wrong, the first in the file is told.
+        let sound = surface.quads.iter().position(|quad| !square::is_unit(quad)).unwrap_or(surface.len());
+        let names = surface.quads[..sound].iter().map(square::place_name);
+        let mut taken: Vec<(u128, usize)> = names.enumerate().map(|(panel, name)| (name, panel)).collect();
+        taken.sort_unstable();
+        let twice = taken.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| (pair[1].1, pair[0].1));
+        if let Some((panel, first)) = twice.min() {
+            return Err(SurfaceError::Twice { face: surface.name(panel), first: surface.name(first) });
+        }
+        if let Some(quad) = surface.quads.get(sound) {
+            let corners = quad.map(|p| At(p).to_string()).join(" ");
+            return Err(SurfaceError::NotUnitSquare { face: surface.name(sound), corners });
         }
         Ok(surface)
     }

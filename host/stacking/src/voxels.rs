@@ -32,30 +32,26 @@ impl Voxels {
 
     /// The squares between solid and empty, outer side out.
     pub(crate) fn boundary(&self) -> Vec<Quad> {
+        let [width, depth, _] = self.sides.map(|c| usize::try_from(c).unwrap_or(0));
+        let row = |y: i32, z: i32| {
+            let [y, z] = [usize::try_from(y).ok()?, usize::try_from(z).ok()?];
+            (y < depth).then(|| self.solid.get((z * depth + y) * width..)?.get(..width))?
+        };
         let mut quads = Vec::new();
-        let mut index = 0;
-        for z in 0..self.sides[2] {
-            for y in 0..self.sides[1] {
-                for x in 0..self.sides[0] {
-                    if self.solid[index] {
-                        for (way, corners) in &FACES {
-                            if !self.is_solid([x + way[0], y + way[1], z + way[2]]) {
-                                quads.push(corners.map(|[a, b, c]| [x + a, y + b, z + c]));
-                            }
-                        }
+        for (z, y) in (0..self.sides[2]).flat_map(|z| (0..self.sides[1]).map(move |y| (z, y))) {
+            let Some(here) = row(y, z).filter(|here| here.contains(&true)) else { continue };
+            let rows = FACES.map(|([_, dy, dz], _)| row(y + dy, z + dz));
+            for (x, at) in (0..self.sides[0]).zip(0..width).filter(|(_, at)| here[*at]) {
+                for ((way, corners), row) in FACES.iter().zip(rows) {
+                    let beyond = at.checked_add_signed(way[0] as isize);
+                    let is_solid = beyond.zip(row).and_then(|(beyond, row)| row.get(beyond)).copied();
+                    if is_solid != Some(true) {
+                        quads.push(corners.map(|[a, b, c]| [x + a, y + b, z + c]));
                     }
-                    index += 1;
                 }
             }
         }
         quads
-    }
-
-    fn is_solid(&self, at: Point) -> bool {
-        let inside = at.iter().zip(&self.sides).all(|(c, side)| (0..*side).contains(c));
-        let [x, y, z] = at.map(|c| usize::try_from(c).unwrap_or(0));
-        let [width, depth, _] = self.sides.map(|c| usize::try_from(c).unwrap_or(0));
-        inside && self.solid[(z * depth + y) * width + x]
     }
 }
 

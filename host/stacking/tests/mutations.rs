@@ -115,9 +115,12 @@ proptest! {
         b in any::<prop::sample::Index>(),
     ) {
         let mut file = FISH.clone();
+        let panels = array(&mut file, "/edges_faces").clone();
         let list = array(&mut file, place);
         let (a, b) = (a.index(list.len()), b.index(list.len()));
         prop_assume!(list[a] != list[b]);
+        // The cut edges of one panel stand in any order.
+        prop_assume!(place != "/edges_vertices" || panels[a] != panels[b]);
         list.swap(a, b);
         assert_refused(&file)?;
     }

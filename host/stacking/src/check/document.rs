@@ -1,13 +1,18 @@
 //! The arrays of a plan file, read for shape: lengths, index ranges, points on the lattice. Only a file that has its shape
 //! can be checked further.
 
-use super::json::{cell, index, indices, lattice_point};
+use super::column::{Column, Listed};
+use super::file::{FrameColumns, PlanFile};
+use super::items::{Edge, EdgeFaces, Face, HingeEntry, Letter, Order};
 use super::report::{Report, Rule};
-use crate::plan::{HingeKind, Pile, Side};
-use serde_json::Value;
+use crate::plan::Pile;
+use serde_json::{Map, Value};
 
 /// How keys of the zygote's frame are called in messages.
 pub(super) const ZYGOTE: &str = "file_frames[0].";
+
+/// Keys of one object of the file that are no columns.
+pub(crate) type Heads = Map<String, Value>;
 
 /// The arrays that both frames have of their own.
 pub(crate) struct FrameArrays {
@@ -15,84 +20,107 @@ pub(crate) struct FrameArrays {
     pub(super) prefix: &'static str,
     pub(crate) points: Vec<[i32; 3]>,
     pub(crate) angles: Vec<f64>,
-    pub(super) letters: Vec<Option<String>>,
-}
-
-/// An entry of `zygote:hinges`.
-pub(crate) struct HingeEntry {
-    pub(crate) kind: HingeKind,
-    pub(crate) panels: [usize; 2],
-    pub(crate) side: Side,
-    pub(crate) opening_deg: u16,
+    pub(super) letters: Column<Letter>,
 }
 
 /// A plan file that has its shape.
 pub(crate) struct Document {
     pub(crate) faces: Vec<[usize; 4]>,
     pub(crate) edges: Vec<[usize; 2]>,
-    /// Two panels for a hinge, one for a cut edge.
-    pub(crate) edge_faces: Vec<Vec<usize>>,
+    pub(crate) edge_faces: Vec<EdgeFaces>,
     pub(crate) target: FrameArrays,
     pub(crate) zygote: FrameArrays,
     pub(crate) hinges: Vec<HingeEntry>,
     pub(crate) piles: Vec<Pile>,
     pub(crate) thickness: f64,
+    /// Whatever stands at the top level and in the zygote's frame beside the arrays.
+    pub(crate) heads: Heads,
+    pub(super) zygote_heads: Heads,
     pub(super) ver: Option<f64>,
-    pub(super) face_orders: Vec<Value>,
+    pub(super) face_orders: Column<Order>,
 }
 
 impl Document {
-    /// Reads the arrays; what doesn't fit goes into the report, and then there is no document.
-    pub(crate) fn read(file: &Value, report: &mut Report) -> Option<Self> {
-        let Some(frame) = file["file_frames"].get(0).filter(|frame| frame.is_object()) else {
+    /// Takes the arrays; what doesn't fit goes into the report, and then there is no document.
+    pub(crate) fn read(file: PlanFile, report: &mut Report) -> Option<Self> {
+        let Some(frame) = file.zygote else {
             report.add(Rule::Missing, "file_frames", "expected an array with the zygote's frame, found none");
             return None;
         };
         let mut reader = Reader { report, sound: true };
-        let face_list = reader.array(file, "", "faces_vertices", None)?;
-        let panels = face_list.len();
+        let face_list = reader.array(file.faces, "", "faces_vertices", None)?;
+        let panels = face_list.entries.len();
         if panels == 0 {
             report.add(Rule::Count, "faces_vertices", "no panels");
             return None;
         }
         let (vertex_count, edge_count) = (2 * panels + 2, 3 * panels + 1);
         let vertices = format!("numbers below 2N+2 = {vertex_count}");
-        let faces = reader
-            .each("faces_vertices", face_list, &format!("4 vertex {vertices}"), |v| indices(v, vertex_count));
-        let edge_list = reader.array(file, "", "edges_vertices", Some(edge_count))?;
-        let edges = reader
-            .each("edges_vertices", edge_list, &format!("2 vertex {vertices}"), |v| indices(v, vertex_count));
-        let face_lists = reader.array(file, "", "edges_faces", Some(edge_count))?;
-        let (hinge_faces, cut_faces) = face_lists.split_at(panels - 1);
-        let pairs =
-            reader.each("edges_faces", hinge_faces, "2 panel numbers in range", |v| indices::<2>(v, panels));
-        let singles =
-            reader.each_from(panels - 1, "edges_faces", cut_faces, "1 panel number in range", |v| {
-                indices::<1>(v, panels)
-            });
-        let target = reader.frame(file, "", panels)?;
-        let zygote = reader.frame(frame, ZYGOTE, panels)?;
-        let hinge_list = reader.array(file, "", "zygote:hinges", Some(panels - 1))?;
-        let hinges = reader.each("zygote:hinges", hinge_list, "kind, panels, side and opening_deg", |v| {
-            hinge_entry(v, panels)
+        let expected = format!("4 vertex {vertices}");
+        reader.each("", "faces_vertices", &face_list, &expected, |_, face| within(&face.0, vertex_count));
+        let edge_list = reader.array(file.edges, "", "edges_vertices", Some(edge_count))?;
+        let expected = format!("2 vertex {vertices}");
+        reader.each("", "edges_vertices", &edge_list, &expected, |_, edge| within(&edge.0, vertex_count));
+        let face_lists = reader.array(file.edge_faces, "", "edges_faces", Some(edge_count))?;
+        reader.each(
+            "",
+            "edges_faces",
+            &face_lists,
+            "2 panel numbers in range for a hinge, 1 for a cut edge",
+            |index, faces| {
+                let panels_there = faces.panels();
+                let wanted = if index + 1 < panels { 2 } else { 1 };
+                if panels_there.len() == wanted {
+                    within(panels_there, panels)
+                } else {
+                    Some(format!("{panels_there:?}"))
+                }
+            },
+        );
+        let (target, _, heads) = reader.frame(file.target, "", panels)?;
+        let (zygote, orders, zygote_heads) = reader.frame(frame, ZYGOTE, panels)?;
+        let hinges = reader.array(file.hinges, "", "zygote:hinges", Some(panels - 1))?;
+        reader.each("", "zygote:hinges", &hinges, "kind, panels, side and opening_deg", |_, hinge| {
+            within(&hinge.panels, panels)
         });
-        let pile_list = reader.array(file, "", "zygote:piles", None)?;
-        let piles =
-            reader.each("zygote:piles", pile_list, "a cell of 2 integers and panel numbers in range", |v| {
-                pile_entry(v, panels)
-            });
-        let face_orders = reader.array(frame, ZYGOTE, "faceOrders", None)?.clone();
-        let thickness = file["zygote:thickness"].as_f64().filter(|t| *t > 0.0);
+        let piles = reader.array(file.piles, "", "zygote:piles", None)?;
+        reader.each(
+            "",
+            "zygote:piles",
+            &piles,
+            "a cell of 2 integers and panel numbers in range",
+            |_, pile| {
+                let far = pile.panels.iter().find(|panel| **panel >= panels)?;
+                Some(format!("panel {far}"))
+            },
+        );
+        let face_orders = reader.array(orders, ZYGOTE, "faceOrders", None)?;
+        let thickness = heads.get("zygote:thickness");
+        let length = thickness.and_then(Value::as_f64).filter(|t| *t > 0.0);
         let sound = reader.sound;
+        let (edges, piles) = (edge_list.entries, piles.entries);
         report
             .require(!piles.is_empty() || !sound, Rule::Count, || ("zygote:piles".into(), "no piles".into()));
-        report.require(thickness.is_some(), Rule::Shape, || {
-            ("zygote:thickness".into(), format!("expected t/L above 0, found {}", file["zygote:thickness"]))
+        report.require(length.is_some(), Rule::Shape, || {
+            let found = thickness.unwrap_or(&Value::Null);
+            ("zygote:thickness".into(), format!("expected t/L above 0, found {found}"))
         });
-        let edge_faces = pairs.iter().map(|p| p.to_vec()).chain(singles.iter().map(|s| s.to_vec())).collect();
-        let thickness = thickness.filter(|_| sound && !piles.is_empty())?;
-        let ver = file["zygote:ver"].as_f64();
-        Some(Self { faces, edges, edge_faces, target, zygote, hinges, piles, thickness, ver, face_orders })
+        let thickness = length.filter(|_| sound && !piles.is_empty())?;
+        let ver = heads.get("zygote:ver").and_then(Value::as_f64);
+        Some(Self {
+            faces: face_list.entries.into_iter().map(|Face(face)| face).collect(),
+            edges: edges.into_iter().map(|Edge(edge)| edge).collect(),
+            edge_faces: face_lists.entries,
+            target,
+            zygote,
+            hinges: hinges.entries,
+            piles,
+            thickness,
+            heads,
+            zygote_heads,
+            ver,
+            face_orders,
+        })
     }
 
     /// The number of panels.
@@ -106,27 +134,12 @@ impl Document {
     }
 }
 
-fn hinge_entry(value: &Value, panels: usize) -> Option<HingeEntry> {
-    let kind = match value["kind"].as_str()? {
-        "fold" => HingeKind::Fold,
-        "bridge" => HingeKind::Bridge,
-        _ => return None,
-    };
-    let letter = value["side"].as_str()?;
-    let side = Side::ALL.into_iter().find(|side| side.letter() == letter)?;
-    let opening = &value["opening_deg"];
-    let opening_deg =
-        [90, 180, 270].into_iter().find(|degrees| opening.as_f64() == Some(f64::from(*degrees)))?;
-    Some(HingeEntry { kind, panels: indices(&value["panels"], panels)?, side, opening_deg })
+/// What to say of numbers that are not all below a limit.
+fn within(numbers: &[usize], limit: usize) -> Option<String> {
+    if numbers.iter().all(|number| *number < limit) { None } else { Some(format!("{numbers:?}")) }
 }
 
-fn pile_entry(value: &Value, panels: usize) -> Option<Pile> {
-    let list = value["panels"].as_array()?;
-    let panels = list.iter().map(|panel| index(panel, panels)).collect::<Option<_>>()?;
-    Some(Pile { cell: cell(&value["cell"])?, panels })
-}
-
-/// Reads arrays and notes what doesn't fit.
+/// Takes columns and notes what doesn't fit.
 struct Reader<'a> {
     report: &'a mut Report,
     sound: bool,
@@ -134,80 +147,65 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// The array under a key. Where it isn't one or has the wrong length, nothing further can be read.
-    fn array<'v>(
+    fn array<T>(
         &mut self,
-        frame: &'v Value,
+        list: Listed<T>,
         prefix: &str,
         key: &str,
         length: Option<usize>,
-    ) -> Option<&'v Vec<Value>> {
+    ) -> Option<Column<T>> {
         let place = || format!("{prefix}{key}");
         let wanted = length.map_or("an array".into(), |length| format!("an array of {length} entries"));
-        let Some(list) = frame[key].as_array() else {
+        let Some(column) = list.0 else {
             self.report.add(Rule::Missing, place(), format!("expected {wanted}, found none"));
             return None;
         };
-        if length.is_some_and(|length| list.len() != length) {
-            self.report.add(Rule::Count, place(), format!("expected {wanted}, found {} entries", list.len()));
+        let found = column.entries.len();
+        if length.is_some_and(|length| found != length) {
+            self.report.add(Rule::Count, place(), format!("expected {wanted}, found {found} entries"));
             return None;
         }
-        Some(list)
+        Some(column)
     }
 
-    /// The entries of an array.
+    /// Looks at every entry of an array: one that is odd, or that `wrong` has something to say of, doesn't fit.
     fn each<T>(
         &mut self,
+        prefix: &str,
         key: &str,
-        list: &[Value],
+        column: &Column<T>,
         expected: &str,
-        read: impl Fn(&Value) -> Option<T>,
-    ) -> Vec<T> {
-        self.each_from(0, key, list, expected, read)
-    }
-
-    /// The entries of a part of an array that begins at `first`.
-    fn each_from<T>(
-        &mut self,
-        first: usize,
-        key: &str,
-        list: &[Value],
-        expected: &str,
-        read: impl Fn(&Value) -> Option<T>,
-    ) -> Vec<T> {
-        let mut found = Vec::with_capacity(list.len());
-        for (number, value) in list.iter().enumerate() {
-            if let Some(entry) = read(value) {
-                found.push(entry);
-            } else {
+        wrong: impl Fn(usize, &T) -> Option<String>,
+    ) {
+        for (number, entry) in column.entries.iter().enumerate() {
+            let odd = if column.odd.is_empty() { None } else { column.odd.get(&number).cloned() };
+            if let Some(found) = odd.or_else(|| wrong(number, entry)) {
                 self.sound = false;
-                let message = format!("expected {expected}, found {}", shortened(value));
-                self.report.add(Rule::Shape, format!("{key}[{}]", first + number), message);
+                let message = format!("expected {expected}, found {found}");
+                self.report.add(Rule::Shape, format!("{prefix}{key}[{number}]"), message);
             }
         }
-        found
     }
 
-    fn frame(&mut self, frame: &Value, prefix: &'static str, panels: usize) -> Option<FrameArrays> {
+    /// The arrays of a frame that have their shape, the orders as they stand, and the heads.
+    fn frame(
+        &mut self,
+        columns: FrameColumns,
+        prefix: &'static str,
+        panels: usize,
+    ) -> Option<(FrameArrays, Listed<Order>, Heads)> {
         let (vertex_count, edge_count) = (2 * panels + 2, 3 * panels + 1);
-        let key = |name: &str| format!("{prefix}{name}");
-        let points = self.array(frame, prefix, "vertices_coords", Some(vertex_count))?;
-        let points =
-            self.each(&key("vertices_coords"), points, "3 whole numbers: on the lattice", lattice_point);
-        let angles = self.array(frame, prefix, "edges_foldAngle", Some(edge_count))?;
-        let angles = self.each(&key("edges_foldAngle"), angles, "a number", Value::as_f64);
-        let letters = self.array(frame, prefix, "edges_assignment", Some(edge_count))?;
-        let letters = letters.iter().map(|letter| letter.as_str().map(str::to_owned)).collect();
-        Some(FrameArrays { prefix, points, angles, letters })
-    }
-}
-
-/// What was found, short enough for a message.
-fn shortened(value: &Value) -> String {
-    const LONGEST: usize = 60;
-    let text = value.to_string();
-    if text.chars().count() <= LONGEST {
-        text
-    } else {
-        text.chars().take(LONGEST).chain("...".chars()).collect()
+        let points = self.array(columns.points, prefix, "vertices_coords", Some(vertex_count))?;
+        self.each(prefix, "vertices_coords", &points, "3 whole numbers: on the lattice", |_, _| None);
+        let angles = self.array(columns.angles, prefix, "edges_foldAngle", Some(edge_count))?;
+        self.each(prefix, "edges_foldAngle", &angles, "a number", |_, _| None);
+        let letters = self.array(columns.letters, prefix, "edges_assignment", Some(edge_count))?;
+        let arrays = FrameArrays {
+            prefix,
+            points: points.entries.into_iter().map(|point| point.0).collect(),
+            angles: angles.entries.into_iter().map(|angle| angle.0).collect(),
+            letters,
+        };
+        Some((arrays, columns.face_orders, columns.rest))
     }
 }

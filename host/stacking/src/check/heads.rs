@@ -1,7 +1,6 @@
 //! The fixed keys of the file and of its two frames, and the plain `zygote:` keys.
 
-use super::document::{Document, ZYGOTE};
-use super::json::{index, same};
+use super::document::{Document, Heads, ZYGOTE};
 use super::report::{Report, Rule};
 use serde_json::{Value, json};
 
@@ -9,8 +8,8 @@ use serde_json::{Value, json};
 const INHERITED: [&str; 3] = ["faces_vertices", "edges_vertices", "edges_faces"];
 
 /// Checks the heads.
-pub(super) fn check(file: &Value, document: &Document, report: &mut Report) {
-    let frame = &file["file_frames"][0];
+pub(super) fn check(document: &Document, report: &mut Report) {
+    let (file, frame) = (&document.heads, &document.zygote_heads);
     let target = [
         ("file_spec", json!(1.2)),
         ("file_classes", json!(["singleModel"])),
@@ -27,14 +26,16 @@ pub(super) fn check(file: &Value, document: &Document, report: &mut Report) {
     fixed(file, "", &target, "3D", report);
     fixed(frame, ZYGOTE, &zygote, "2D", report);
     let mut plain = |key: &str, expected: &str, test: &dyn Fn(&Value) -> bool| {
-        report.require(test(&file[key]), Rule::Head, || {
-            (key.into(), format!("expected {expected}, found {}", file[key]))
-        });
+        let found = under(file, key);
+        report
+            .require(test(found), Rule::Head, || (key.into(), format!("expected {expected}, found {found}")));
     };
     let is_length = |value: &Value| value.as_f64().is_some_and(|length| length > 0.0);
     plain("file_creator", "name and version", &|value| value.as_str().is_some_and(|name| !name.is_empty()));
     plain("zygote:panel_length_mm", "a length above 0", &is_length);
-    plain("zygote:root", "a panel number", &|value| index(value, document.panels()).is_some());
+    plain("zygote:root", "a panel number", &|value| {
+        value.as_u64().is_some_and(|root| root < document.panels() as u64)
+    });
     plain("zygote:source", "an object", &Value::is_object);
     for key in INHERITED {
         report.require(frame.get(key).is_none(), Rule::Head, || {
@@ -43,13 +44,14 @@ pub(super) fn check(file: &Value, document: &Document, report: &mut Report) {
     }
 }
 
-fn fixed(frame: &Value, prefix: &str, keys: &[(&str, Value)], attribute: &str, report: &mut Report) {
+fn fixed(frame: &Heads, prefix: &str, keys: &[(&str, Value)], attribute: &str, report: &mut Report) {
     for (key, expected) in keys {
-        report.require(same(&frame[*key], expected), Rule::Head, || {
-            (format!("{prefix}{key}"), format!("expected {expected}, found {}", frame[*key]))
+        let found = under(frame, key);
+        report.require(same(found, expected), Rule::Head, || {
+            (format!("{prefix}{key}"), format!("expected {expected}, found {found}"))
         });
     }
-    let attributes = &frame["frame_attributes"];
+    let attributes = under(frame, "frame_attributes");
     let has = attributes.as_array().is_some_and(|list| list.iter().any(|entry| entry == attribute));
     report.require(has, Rule::Head, || {
         (
@@ -57,4 +59,17 @@ fn fixed(frame: &Value, prefix: &str, keys: &[(&str, Value)], attribute: &str, r
             format!("expected an array with \"{attribute}\", found {attributes}"),
         )
     });
+}
+
+/// The value under a key, or null.
+fn under<'a>(heads: &'a Heads, key: &str) -> &'a Value {
+    heads.get(key).unwrap_or(&Value::Null)
+}
+
+/// Whether two JSON values are the same, numbers by their value.
+fn same(found: &Value, expected: &Value) -> bool {
+    match (found.as_f64(), expected.as_f64()) {
+        (Some(found), Some(expected)) => found.total_cmp(&expected).is_eq(),
+        _ => found == expected,
+    }
 }

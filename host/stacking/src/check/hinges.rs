@@ -1,6 +1,7 @@
 //! The hinges in the zygote: kind, side and angles of each; the count of bridges and breaks; and the cut edges.
 
 use super::document::{Document, FrameArrays};
+use super::items::Letter;
 use super::piles::Stack;
 use super::report::{Report, Rule};
 use super::squares::{Frame, fold_angle};
@@ -17,8 +18,8 @@ pub(super) fn check(
     report: &mut Report,
 ) {
     for (index, entry) in document.hinges.iter().enumerate() {
-        let panels = &document.edge_faces[index];
-        report.require(entry.panels == panels[..], Rule::Hinge, || {
+        let panels = document.edge_faces[index].panels();
+        report.require(entry.panels[..] == *panels, Rule::Hinge, || {
             (
                 format!("zygote:hinges[{index}]"),
                 format!("panels {:?}, edges_faces has {panels:?}", entry.panels),
@@ -90,10 +91,20 @@ fn count(document: &Document, joints: &[Joint], report: &mut Report) {
     }
     let bridges =
         joints.iter().filter(|joint| document.hinges[joint.hinge].kind == HingeKind::Bridge).count();
-    let folds = document.hinges.iter().filter(|entry| entry.kind == HingeKind::Fold);
-    let folded: BTreeSet<[usize; 2]> = folds.map(|entry| entry.panels).collect();
+    // Of every panel the one that a fold joins onto it; more than one only in a file that is wrong.
+    let mut above = vec![usize::MAX; document.panels()];
+    let mut more = BTreeSet::new();
+    for entry in document.hinges.iter().filter(|entry| entry.kind == HingeKind::Fold) {
+        let [lower, upper] = entry.panels;
+        if above[lower] == usize::MAX {
+            above[lower] = upper;
+        } else {
+            more.insert(entry.panels);
+        }
+    }
+    let is_folded = |pair: &[usize]| above[pair[0]] == pair[1] || more.contains(&[pair[0], pair[1]]);
     let pairs = document.piles.iter().flat_map(|pile| pile.panels.windows(2));
-    let breaks = pairs.filter(|pair| !folded.contains(&[pair[0], pair[1]])).count();
+    let breaks = pairs.filter(|pair| !is_folded(pair)).count();
     report.require(bridges + 1 == breaks + document.piles.len(), Rule::BridgesBreaks, || {
         let expected = format!("expected K-1 = {}", document.piles.len() - 1);
         ("zygote:hinges".into(), format!("{bridges} bridges less {breaks} breaks, {expected}"))
@@ -121,17 +132,19 @@ pub(super) fn check_angle(
         (format!("{}edges_foldAngle[{index}]", frame.prefix), message)
     });
     let letter = match computed {
-        1.. => "V",
-        0 => "F",
-        _ => "M",
+        1.. => b'V',
+        0 => b'F',
+        _ => b'M',
     };
     require_letter(frame, index, letter, report);
 }
 
-fn require_letter(frame: &FrameArrays, index: usize, letter: &str, report: &mut Report) {
-    let stated = frame.letters[index].as_deref();
-    report.require(stated == Some(letter), Rule::Assignment, || {
-        let message = format!("stated {}, expected {letter}", stated.unwrap_or("no letter"));
+fn require_letter(frame: &FrameArrays, index: usize, letter: u8, report: &mut Report) {
+    let stated = frame.letters.entries[index];
+    report.require(stated == Letter(letter), Rule::Assignment, || {
+        let found = frame.letters.odd.get(&index);
+        let found = found.map_or_else(|| char::from(stated.0).to_string(), String::clone);
+        let message = format!("stated {found}, expected {}", char::from(letter));
         (format!("{}edges_assignment[{index}]", frame.prefix), message)
     });
 }
@@ -140,7 +153,7 @@ fn require_letter(frame: &FrameArrays, index: usize, letter: &str, report: &mut 
 pub(super) fn check_cut_edges(document: &Document, report: &mut Report) {
     for frame in [&document.target, &document.zygote] {
         for index in document.hinge_count()..document.edges.len() {
-            require_letter(frame, index, "B", report);
+            require_letter(frame, index, b'B', report);
             report.require(frame.angles[index] == 0.0, Rule::FoldAngle, || {
                 let message = format!("stated {}, a cut edge has 0", frame.angles[index]);
                 (format!("{}edges_foldAngle[{index}]", frame.prefix), message)

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::hinges::check_angle;
+use super::lattice;
 use super::report::{Report, Rule};
 use super::squares::{Frame, Square, fold_angle};
 use super::topology::Joint;
@@ -9,30 +10,30 @@ use std::collections::BTreeMap;
 
 /// Checks the target.
 pub(super) fn check(document: &Document, target: &Frame<'_>, joints: &[Joint], report: &mut Report) {
-    let mut taken: BTreeMap<Square, usize> = BTreeMap::new();
-    let mut around: BTreeMap<[[i32; 3]; 2], Vec<(usize, usize)>> = BTreeMap::new();
-    for (panel, square) in target.squares() {
-        if let Some(other) = taken.insert(square, panel) {
-            let message = format!("on the same square, with the same outer side, as panel {other}");
-            report.add(Rule::Overlap, format!("faces_vertices[{panel}]"), message);
-        }
-        for side in 0..4 {
-            around.entry(edge(target, panel, side)).or_default().push((panel, side));
-        }
+    require_distinct(target, report);
+    let mut flanks: Vec<Flank> = Vec::with_capacity(4 * document.panels());
+    for (panel, _) in target.squares() {
+        flanks.extend((0..4).map(|side| Flank { edge: edge_name(target.ends(panel, side)), panel, side }));
     }
-    for ([p, q], found) in &around {
+    flanks.sort_unstable();
+    // Where more than two panels meet, by panel and side: few, if any.
+    let mut crowded: BTreeMap<(usize, usize), &[Flank]> = BTreeMap::new();
+    for found in flanks.chunk_by(|a, b| a.edge == b.edge) {
         report.require([1, 2, 4].contains(&found.len()), Rule::LatticeEdge, || {
+            let [p, q] = target.ends(found[0].panel, found[0].side);
             let message = format!("{} panels meet at the edge {p:?} {q:?}, expected 1, 2 or 4", found.len());
-            (format!("faces_vertices[{}]", found[0].0), message)
+            (format!("faces_vertices[{}]", found[0].panel), message)
         });
+        if found.len() > 2 {
+            crowded.extend(found.iter().map(|flank| ((flank.panel, flank.side), found)));
+        }
     }
     for Joint { hinge, panels: [a, b], sides: [side_a, side_b] } in joints {
         let (into_a, into_b) = (target.into(*a, *side_a), target.into(*b, *side_b));
         let normal_a = target.normal(*a);
         let angle = fold_angle(into_a, into_b, normal_a, 1);
         check_angle(&document.target, *hinge, angle, &[-90, 0, 90], report);
-        let found = &around[&edge(target, *a, *side_a)];
-        if found.len() > 2 {
+        if let Some(found) = crowded.get(&(*a, *side_a)) {
             let partners = partners(target, found, into_a, normal_a);
             report.require(partners.contains(b), Rule::Partner, || {
                 let message = format!("at this edge of 4 panels the partner of {a} is {partners:?}, not {b}");
@@ -42,17 +43,38 @@ pub(super) fn check(document: &Document, target: &Frame<'_>, joints: &[Joint], r
     }
 }
 
-fn edge(frame: &Frame<'_>, panel: usize, side: usize) -> [[i32; 3]; 2] {
-    let [p, q] = frame.ends(panel, side);
-    [p.min(q), p.max(q)]
+/// One side of a panel, at its lattice edge.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Flank {
+    edge: u128,
+    panel: usize,
+    side: usize,
+}
+
+/// No two panels on one square with the same outer side.
+fn require_distinct(target: &Frame<'_>, report: &mut Report) {
+    let name = |square: Square| lattice::name(square.least, 2 * square.axis + usize::from(square.sign > 0));
+    let mut names: Vec<(u128, usize)> =
+        target.squares().map(|(panel, square)| (name(square), panel)).collect();
+    names.sort_unstable();
+    for pair in names.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        let message = format!("on the same square, with the same outer side, as panel {}", pair[0].1);
+        report.add(Rule::Overlap, format!("faces_vertices[{}]", pair[1].1), message);
+    }
+}
+
+/// A name for a lattice edge of length 1, the same from both of its ends.
+fn edge_name([p, q]: [[i32; 3]; 2]) -> u128 {
+    let axis = (0..3).find(|axis| p[*axis] != q[*axis]);
+    lattice::name(p.min(q), axis.unwrap_or_default())
 }
 
 /// The panels met first on turning about an edge from a panel towards its inner side.
-fn partners(frame: &Frame<'_>, found: &[(usize, usize)], into_a: [i32; 3], normal_a: [i32; 3]) -> Vec<usize> {
+fn partners(frame: &Frame<'_>, found: &[Flank], into_a: [i32; 3], normal_a: [i32; 3]) -> Vec<usize> {
     let turn = [normal_a.map(|c| -c), into_a.map(|c| -c), normal_a];
     let standing = |way: [i32; 3]| -> Vec<usize> {
-        let there = found.iter().filter(|(panel, side)| frame.into(*panel, *side) == way);
-        there.map(|(panel, _)| *panel).collect()
+        let there = found.iter().filter(|flank| frame.into(flank.panel, flank.side) == way);
+        there.map(|flank| flank.panel).collect()
     };
     turn.into_iter().map(standing).find(|panels| !panels.is_empty()).unwrap_or_default()
 }

@@ -3,8 +3,9 @@
 
 use super::document::Document;
 use super::report::{Report, Rule};
-use std::collections::BTreeMap;
 
+/// The side of a panel that carries no edge yet.
+const NO_EDGE: usize = usize::MAX;
 /// A hinge whose edge was found in both of its panels.
 pub(super) struct Joint {
     pub(super) hinge: usize,
@@ -15,13 +16,14 @@ pub(super) struct Joint {
 
 /// Checks the topology and finds the sides that the hinges are on.
 pub(super) fn check(document: &Document, report: &mut Report) -> Vec<Joint> {
-    let mut owner: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    let mut owner = vec![[NO_EDGE; 4]; document.panels()];
     let mut joints = Vec::with_capacity(document.hinge_count());
     let mut group: Vec<usize> = (0..document.panels()).collect();
-    for (index, (&[u, v], panels)) in document.edges.iter().zip(&document.edge_faces).enumerate() {
-        let mut sides = Vec::with_capacity(2);
+    for (index, (&[u, v], faces)) in document.edges.iter().zip(&document.edge_faces).enumerate() {
+        let panels = faces.panels();
+        let mut sides = [None; 2];
         // The edge runs as in its first panel, and so against its second.
-        for (panel, (start, end)) in panels.iter().zip([(u, v), (v, u)]) {
+        for (number, (panel, (start, end))) in panels.iter().zip([(u, v), (v, u)]).enumerate() {
             let face = document.faces[*panel];
             let side_from =
                 |from: usize, to: usize| (0..4).find(|i| face[*i] == from && face[(i + 1) % 4] == to);
@@ -32,22 +34,23 @@ pub(super) fn check(document: &Document, report: &mut Report) -> Vec<Joint> {
                 report.add(rule, format!("edges_vertices[{index}]"), format!("panel {panel} {found}"));
                 continue;
             };
-            if let Some(other) = owner.insert((*panel, side), index) {
+            let other = std::mem::replace(&mut owner[*panel][side], index);
+            if other != NO_EDGE {
                 report.add(
                     Rule::OneHingeASide,
                     format!("edges_vertices[{index}]"),
                     format!("side {side} of panel {panel} is edge {other} already"),
                 );
             }
-            sides.push(side);
+            sides[number] = Some(side);
         }
-        if let [a, b] = panels[..] {
+        if let [a, b] = *panels {
             let (group_a, group_b) = (find(&mut group, a), find(&mut group, b));
             report.require(group_a != group_b, Rule::Tree, || {
                 (format!("edges_faces[{index}]"), format!("the hinge between {a} and {b} closes a loop"))
             });
             group[group_a] = group_b;
-            if let [side_a, side_b] = sides[..] {
+            if let [Some(side_a), Some(side_b)] = sides {
                 joints.push(Joint { hinge: index, panels: [a, b], sides: [side_a, side_b] });
             }
         }

@@ -1,11 +1,10 @@
 //! The zygote: every panel lies on its cell, outer side up at even heights and down at odd ones, and `faceOrders` says so.
 
 use super::document::{Document, ZYGOTE};
+use super::items::Order;
 use super::piles::Stack;
 use super::report::{Report, Rule};
 use super::squares::Frame;
-use serde_json::Value;
-use std::collections::BTreeMap;
 
 /// Checks the folding map and the order of the layers.
 pub(super) fn check(document: &Document, zygote: &Frame<'_>, stack: &Stack, report: &mut Report) {
@@ -25,29 +24,30 @@ pub(super) fn check(document: &Document, zygote: &Frame<'_>, stack: &Stack, repo
 }
 
 fn check_orders(document: &Document, report: &mut Report) {
-    let mut expected: BTreeMap<(u64, u64), i64> = BTreeMap::new();
+    /// What stands for no panel.
+    const NONE: i64 = -1;
+    let mut above = vec![(NONE, 0); document.panels()];
     for pile in &document.piles {
         for (height, pair) in pile.panels.windows(2).enumerate() {
-            expected.insert((pair[1] as u64, pair[0] as u64), if height % 2 == 0 { 1 } else { -1 });
+            above[pair[0]] = (pair[1].cast_signed() as i64, if height % 2 == 0 { 1 } else { -1 });
         }
     }
-    for (index, order) in document.face_orders.iter().enumerate() {
-        let read = || {
-            let [upper, lower, s] = order.as_array()?.as_slice() else { return None };
-            Some(((upper.as_u64()?, lower.as_u64()?), s.as_i64()?))
-        };
-        let good = read().is_some_and(|(pair, s): (_, i64)| expected.remove(&pair) == Some(s));
+    for (index, &Order([upper, lower, s])) in document.face_orders.entries.iter().enumerate() {
+        let odd = document.face_orders.odd.get(&index);
+        let expected = usize::try_from(lower).ok().and_then(|lower| above.get_mut(lower));
+        let good = odd.is_none()
+            && expected.is_some_and(|expected| {
+                *expected != (NONE, 0) && std::mem::replace(expected, (NONE, 0)) == (upper, s)
+            });
         report.require(good, Rule::FaceOrders, || {
             let message = "expected [upper, lower, s] of two consecutive heights, each once, s by the lower panel's normal";
-            (format!("{ZYGOTE}faceOrders[{index}]"), format!("{message}; found {}", brief(order)))
+            let found = odd.map_or_else(|| format!("[{upper},{lower},{s}]"), String::clone);
+            (format!("{ZYGOTE}faceOrders[{index}]"), format!("{message}; found {found}"))
         });
     }
-    if let Some(((upper, lower), _)) = expected.first_key_value() {
-        let message = format!("nothing for {} pairs of panels, first {upper} over {lower}", expected.len());
+    let mut left = above.iter().enumerate().filter(|(_, (upper, _))| *upper != NONE);
+    if let Some((lower, (upper, _))) = left.next() {
+        let message = format!("nothing for {} pairs of panels, first {upper} over {lower}", 1 + left.count());
         report.add(Rule::FaceOrders, format!("{ZYGOTE}faceOrders"), message);
     }
-}
-
-fn brief(order: &Value) -> String {
-    order.to_string().chars().take(40).collect()
 }

@@ -4,7 +4,7 @@ mod layout_of_lines;
 mod read;
 mod write;
 
-pub use read::{FoldError, parse, read};
+pub use read::{FoldError, check, parse, read};
 pub use write::write;
 
 /// The key of the schedule, which is kept as it stands.

@@ -1,7 +1,7 @@
 //! Reads a FOLD file as a plan, and refuses one that breaks any rule of the format.
 
 use super::SCHEDULE;
-use crate::check::{self, Document, Report};
+use crate::check::{self, Document, Parsed, PlanFile, Report};
 use crate::plan::{Hinge, Plan, Source};
 use serde_json::Value;
 
@@ -45,22 +45,37 @@ pub fn parse(bytes: &[u8]) -> Result<Value, FoldError> {
     Err(FoldError::NotAnObject { found })
 }
 
+/// Checks the bytes of a FOLD file against the rules, without a tree of values between.
+///
+/// # Errors
+/// Bytes that are no JSON object.
+pub fn check(bytes: &[u8]) -> Result<Report, FoldError> {
+    Ok(check::check_file(file(bytes)?).1)
+}
+
+fn file(bytes: &[u8]) -> Result<PlanFile, FoldError> {
+    let parsed: Parsed<PlanFile> = serde_json::from_slice(bytes)?;
+    parsed.0.map_err(|found| FoldError::NotAnObject { found })
+}
+
 /// Reads a plan.
 ///
 /// # Errors
 /// Bytes that are no JSON object, or a plan that breaks a rule: named with key and index.
 pub fn read(bytes: &[u8]) -> Result<Plan, FoldError> {
-    let file = parse(bytes)?;
-    let (document, report) = check::check_document(&file);
+    let (document, report) = check::check_file(file(bytes)?);
     match document {
-        Some(document) if report.is_valid() => plan(&file, document),
+        Some(document) if report.is_valid() => plan(document),
         _ => Err(FoldError::BreaksRules(Box::new(report))),
     }
 }
 
 /// Makes a plan of a file that breaks no rule.
-fn plan(file: &Value, document: Document) -> Result<Plan, FoldError> {
-    let source: Source = serde_json::from_value(file["zygote:source"].clone()).map_err(FoldError::Source)?;
+fn plan(mut document: Document) -> Result<Plan, FoldError> {
+    let mut head = |key: &str| document.heads.remove(key).unwrap_or_default();
+    let source: Source = serde_json::from_value(head("zygote:source")).map_err(FoldError::Source)?;
+    let panel_length_mm = head("zygote:panel_length_mm").as_f64().unwrap_or_default();
+    let root = head("zygote:root").as_u64().and_then(|root| usize::try_from(root).ok()).unwrap_or_default();
     let target = document.faces.iter().map(|face| face.map(|v| document.target.points[v])).collect();
     let flat = |point: [i32; 3]| [point[0], point[1]];
     let zygote = document.faces.iter().map(|face| face.map(|v| flat(document.zygote.points[v]))).collect();
@@ -86,10 +101,10 @@ fn plan(file: &Value, document: Document) -> Result<Plan, FoldError> {
         zygote,
         hinges,
         thickness: document.thickness,
-        panel_length_mm: file["zygote:panel_length_mm"].as_f64().unwrap_or_default(),
-        root: file["zygote:root"].as_u64().and_then(|root| usize::try_from(root).ok()).unwrap_or_default(),
+        panel_length_mm,
+        root,
         source,
-        schedule: file.get(SCHEDULE).cloned(),
+        schedule: document.heads.remove(SCHEDULE),
         piles: document.piles,
     })
 }

@@ -2,10 +2,14 @@
 
 use super::SCHEDULE;
 use super::layout_of_lines::KeyALine;
-use crate::plan::{Hinge, HingeKind, Plan};
+use crate::plan::{Hinge, HingeKind, Pile, Plan};
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde::ser::{SerializeMap, Serializer};
+use serde_json::json;
 use std::io;
+
+/// Bytes of the file for each panel, a little more than most plans need.
+const BYTES_PER_PANEL: usize = 320;
 
 /// A plan as the bytes of a `.fold` file.
 ///
@@ -13,85 +17,135 @@ use std::io;
 /// A schedule that JSON can't hold; nothing else in a plan can fail.
 pub fn write(plan: &Plan) -> io::Result<Vec<u8>> {
     let cut = CutSurface::of(plan);
-    let mut bytes = Vec::new();
-    let mut writer = serde_json::Serializer::with_formatter(&mut bytes, KeyALine::default());
-    serde::Serializer::collect_map(&mut writer, keys(plan, &cut))?;
+    let mut bytes = Vec::with_capacity(BYTES_PER_PANEL * plan.panels());
+    File { plan, cut: &cut }
+        .serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, KeyALine::default()))?;
     bytes.push(b'\n');
     Ok(bytes)
 }
 
-/// The keys of the file in the order in which they stand there.
-fn keys(plan: &Plan, cut: &CutSurface) -> Vec<(&'static str, Value)> {
-    let mut keys = vec![
-        ("file_spec", json!(1.2)),
-        ("file_creator", json!(concat!("zygote ", env!("CARGO_PKG_VERSION")))),
-        ("file_classes", json!(["singleModel"])),
-        ("frame_title", json!("target")),
-        ("frame_classes", json!(["foldedForm"])),
-        ("frame_attributes", json!(["3D", "orientable"])),
-        ("zygote:version", json!(1)),
-        ("zygote:thickness", json!(plan.thickness)),
-        ("zygote:panel_length_mm", json!(plan.panel_length_mm)),
-        ("zygote:root", json!(plan.root)),
-        ("zygote:ver", json!(plan.expansion_ratio())),
-        ("zygote:source", json!(plan.source)),
-        ("zygote:piles", plan.piles.iter().map(|p| json!({"cell": p.cell, "panels": p.panels})).collect()),
-        ("zygote:hinges", plan.hinges.iter().map(hinge_entry).collect()),
-        ("vertices_coords", json!(cut.per_vertex(&plan.target))),
-        ("faces_vertices", json!(cut.faces)),
-        ("edges_vertices", json!(cut.edges)),
-        ("edges_faces", json!(cut.edge_faces)),
-    ];
-    keys.extend(angles(plan, cut, |hinge| hinge.target_angle_deg));
-    keys.push(("file_frames", json!([zygote_frame(plan, cut)])));
-    keys.extend(plan.schedule.clone().map(|schedule| (SCHEDULE, schedule)));
-    keys
+/// The file, its keys in the order in which they stand there.
+struct File<'a> {
+    plan: &'a Plan,
+    cut: &'a CutSurface,
 }
 
-fn zygote_frame(plan: &Plan, cut: &CutSurface) -> Value {
-    let flat: Vec<[[i32; 3]; 4]> = plan.zygote.iter().map(|quad| quad.map(|[x, y]| [x, y, 0])).collect();
-    let mut frame = json!({
-        "frame_title": "zygote",
-        "frame_classes": ["foldedForm"],
-        "frame_attributes": ["2D", "orientable"],
-        "frame_parent": 0,
-        "frame_inherit": true,
-        "vertices_coords": cut.per_vertex(&flat),
-        "faceOrders": face_orders(plan),
-    });
-    for (key, value) in angles(plan, cut, |hinge| hinge.zygote_angle_deg) {
-        frame[key] = value;
+impl Serialize for File<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { plan, cut } = self;
+        let mut file = serializer.serialize_map(None)?;
+        file.serialize_entry("file_spec", &1.2)?;
+        file.serialize_entry("file_creator", concat!("zygote ", env!("CARGO_PKG_VERSION")))?;
+        file.serialize_entry("file_classes", &["singleModel"])?;
+        file.serialize_entry("frame_title", "target")?;
+        file.serialize_entry("frame_classes", &["foldedForm"])?;
+        file.serialize_entry("frame_attributes", &["3D", "orientable"])?;
+        file.serialize_entry("zygote:version", &1)?;
+        file.serialize_entry("zygote:thickness", &plan.thickness)?;
+        file.serialize_entry("zygote:panel_length_mm", &plan.panel_length_mm)?;
+        file.serialize_entry("zygote:root", &plan.root)?;
+        file.serialize_entry("zygote:ver", &plan.expansion_ratio())?;
+        file.serialize_entry("zygote:source", &json!(plan.source))?;
+        file.serialize_entry("zygote:piles", &Each(plan.piles.iter().map(PileEntry::of)))?;
+        file.serialize_entry("zygote:hinges", &Each(plan.hinges.iter().map(HingeEntry::of)))?;
+        file.serialize_entry("vertices_coords", &cut.per_vertex(&plan.target, |point| point))?;
+        file.serialize_entry("faces_vertices", &cut.faces)?;
+        file.serialize_entry("edges_vertices", &cut.edges)?;
+        file.serialize_entry("edges_faces", &cut.edge_faces)?;
+        file.serialize_entry(
+            "edges_foldAngle",
+            &Each(cut.of_edges(plan, |hinge| hinge.target_angle_deg, 0)),
+        )?;
+        file.serialize_entry(
+            "edges_assignment",
+            &Each(cut.of_edges(plan, |hinge| letter(hinge.target_angle_deg), "B")),
+        )?;
+        file.serialize_entry("file_frames", &[Zygote { plan, cut }])?;
+        if let Some(schedule) = &plan.schedule {
+            file.serialize_entry(SCHEDULE, schedule)?;
+        }
+        file.end()
     }
-    frame
 }
 
-fn hinge_entry(hinge: &Hinge) -> Value {
-    let kind = match hinge.kind {
-        HingeKind::Fold => "fold",
-        HingeKind::Bridge => "bridge",
-    };
-    json!({
-        "kind": kind, "panels": hinge.panels, "side": hinge.side.letter(), "opening_deg": hinge.opening_deg,
-    })
+/// The zygote's frame, its keys in order.
+struct Zygote<'a> {
+    plan: &'a Plan,
+    cut: &'a CutSurface,
 }
 
-/// Fold angles and the letters that go with them: of the hinges as they are, of the cut edges 0 and B.
-fn angles(plan: &Plan, cut: &CutSurface, of: impl Fn(&Hinge) -> i16) -> [(&'static str, Value); 2] {
-    let letter = |angle: i16| match angle {
+impl Serialize for Zygote<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { plan, cut } = self;
+        let mut frame = serializer.serialize_map(None)?;
+        frame.serialize_entry(
+            "edges_assignment",
+            &Each(cut.of_edges(plan, |hinge| letter(hinge.zygote_angle_deg), "B")),
+        )?;
+        frame.serialize_entry(
+            "edges_foldAngle",
+            &Each(cut.of_edges(plan, |hinge| hinge.zygote_angle_deg, 0)),
+        )?;
+        let layers = plan.piles.iter().flat_map(|pile| pile.panels.windows(2).enumerate());
+        let orders = layers.map(|(height, pair)| (pair[1], pair[0], if height % 2 == 0 { 1 } else { -1 }));
+        frame.serialize_entry("faceOrders", &Each(orders))?;
+        frame.serialize_entry("frame_attributes", &["2D", "orientable"])?;
+        frame.serialize_entry("frame_classes", &["foldedForm"])?;
+        frame.serialize_entry("frame_inherit", &true)?;
+        frame.serialize_entry("frame_parent", &0)?;
+        frame.serialize_entry("frame_title", "zygote")?;
+        frame.serialize_entry("vertices_coords", &cut.per_vertex(&plan.zygote, |[x, y]| [x, y, 0]))?;
+        frame.end()
+    }
+}
+
+/// An array, written entry by entry.
+struct Each<I>(I);
+
+impl<I: Iterator<Item: Serialize> + Clone> Serialize for Each<I> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.clone())
+    }
+}
+
+#[derive(Serialize)]
+struct PileEntry<'a> {
+    cell: [i32; 2],
+    panels: &'a [usize],
+}
+
+impl<'a> PileEntry<'a> {
+    fn of(pile: &'a Pile) -> Self {
+        Self { cell: pile.cell, panels: &pile.panels }
+    }
+}
+
+#[derive(Serialize)]
+struct HingeEntry {
+    kind: &'static str,
+    opening_deg: u16,
+    panels: [usize; 2],
+    side: &'static str,
+}
+
+impl HingeEntry {
+    fn of(hinge: &Hinge) -> Self {
+        let kind = match hinge.kind {
+            HingeKind::Fold => "fold",
+            HingeKind::Bridge => "bridge",
+        };
+        let Hinge { opening_deg, panels, side, .. } = *hinge;
+        Self { kind, opening_deg, panels, side: side.letter() }
+    }
+}
+
+/// The letter that goes with a fold angle.
+fn letter(angle: i16) -> &'static str {
+    match angle {
         1.. => "V",
         0 => "F",
         _ => "M",
-    };
-    let borders = cut.edges.len() - plan.hinges.len();
-    let angles: Vec<i16> = plan.hinges.iter().map(of).collect();
-    let letters: Vec<&str> = angles.iter().map(|angle| letter(*angle)).chain(vec!["B"; borders]).collect();
-    let angles: Vec<i16> = angles.into_iter().chain(vec![0; borders]).collect();
-    [("edges_foldAngle", json!(angles)), ("edges_assignment", json!(letters))]
-}
-
-fn face_orders(plan: &Plan) -> Vec<(usize, usize, i8)> {
-    let layers = plan.piles.iter().flat_map(|pile| pile.panels.windows(2).enumerate());
-    layers.map(|(height, pair)| (pair[1], pair[0], if height % 2 == 0 { 1 } else { -1 })).collect()
+    }
 }
 
 /// The surface cut open along every edge without a hinge: panels share a vertex only through hinges.
@@ -151,12 +205,23 @@ impl CutSurface {
         Self { faces, edges, edge_faces, vertices }
     }
 
+    /// Something of every edge: of the hinges what they have, of the cut edges all the same.
+    fn of_edges<'a, T: Copy + 'a>(
+        &self,
+        plan: &'a Plan,
+        of: impl Fn(&Hinge) -> T + Clone + 'a,
+        of_cut: T,
+    ) -> impl Iterator<Item = T> + Clone {
+        let cut_edges = self.edges.len() - plan.hinges.len();
+        plan.hinges.iter().map(of).chain(std::iter::repeat_n(of_cut, cut_edges))
+    }
+
     /// Positions by vertex, from positions by panel and corner.
-    fn per_vertex(&self, quads: &[[[i32; 3]; 4]]) -> Vec<[i32; 3]> {
+    fn per_vertex<P: Copy>(&self, quads: &[[P; 4]], point_of: impl Fn(P) -> [i32; 3]) -> Vec<[i32; 3]> {
         let mut points = vec![[0; 3]; self.vertices];
         for (face, quad) in self.faces.iter().zip(quads) {
             for (vertex, point) in face.iter().zip(quad) {
-                points[*vertex] = *point;
+                points[*vertex] = point_of(*point);
             }
         }
         points

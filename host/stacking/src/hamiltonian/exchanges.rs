@@ -25,10 +25,10 @@ pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -
     let mut cycles = Cycles::of(cover);
     let mut kicks = 0;
     while cycles.count() > 1 && kicks < KICKS {
-        // The shortest cycles take turns while they resist.
-        let short = cycles.shortest(1 + kicks % 4);
+        // The shortest cycles take turns while they resist, but never the longest of all.
+        let short = cycles.shortest((1 + kicks % 4).min(cycles.count() - 1));
         let Some(&(length, member)) = short.last() else { break };
-        let starts = starts(cover, member, length, random);
+        let starts = starts(graph, cover, &cycles, member, length, random);
         let joined = (2..=LONGEST).find_map(|longest| {
             starts.iter().find_map(|start| Walk::new(graph, cover, &cycles, longest).falling(*start))
         });
@@ -39,15 +39,28 @@ pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -
         });
         if let Some((removed, added)) = exchange {
             cover.exchange(&removed, &added);
-            cycles.renew(cover, &removed);
+            cycles.renew(&removed, &added);
         }
     }
     cycles.count()
 }
 
-/// Nodes of a cycle to begin at: all of a short one, some of a long one.
-fn starts(cover: &Cover, member: usize, length: usize, random: &mut Random) -> Vec<usize> {
-    let mut nodes: Vec<usize> = cover.walk(member).collect();
+/// Nodes of a cycle to begin at: those that have a neighbour in another one, all or some of them.
+fn starts(
+    graph: &Graph<'_>,
+    cover: &Cover,
+    cycles: &Cycles,
+    member: usize,
+    length: usize,
+    random: &mut Random,
+) -> Vec<usize> {
+    let own = cycles.cycle_of(member);
+    let at_border = |node: &usize| {
+        let crosses = |near: &usize| cycles.cycle_of(*near) != own;
+        // An exchange through the apex may begin anywhere.
+        graph.apex().is_some() || graph.neighbours(*node).iter().any(crosses)
+    };
+    let mut nodes: Vec<usize> = cover.walk(member).filter(at_border).collect();
     if length > STARTS {
         random.shuffle(&mut nodes);
         nodes.truncate(STARTS);

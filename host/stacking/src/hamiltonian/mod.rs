@@ -14,6 +14,7 @@ mod exchanges;
 mod faces;
 mod graph;
 mod obstacles;
+mod segments;
 mod two_factor;
 
 use crate::random::Random;

@@ -34,58 +34,91 @@ pub(super) fn find(graph: &Graph<'_>, random: &mut Random) -> Option<Cover> {
     (0..graph.nodes()).all(|node| cover.lacks(node) == 0).then_some(cover)
 }
 
+/// Nodes that wait for mates, by how much choice they have.
+struct Queue {
+    /// Nodes by choice; entries whose node has gone or has another choice by now are passed over.
+    by_choice: Vec<Vec<usize>>,
+    waiting: Vec<bool>,
+    /// Of every node the edges that can still be taken.
+    free: Vec<usize>,
+}
+
+impl Queue {
+    fn new(graph: &Graph<'_>, random: &mut Random) -> Self {
+        let free: Vec<usize> = (0..graph.panels()).map(|node| graph.neighbours(node).len()).collect();
+        let most = free.iter().max().copied().unwrap_or_default();
+        let mut queue = Self { by_choice: vec![Vec::new(); most + 3], waiting: vec![true; free.len()], free };
+        let mut nodes: Vec<usize> = (0..graph.panels()).collect();
+        random.shuffle(&mut nodes);
+        for node in nodes {
+            queue.by_choice[queue.free[node]].push(node);
+        }
+        queue
+    }
+
+    /// Edges that a node can still take, less those that it needs, plus two.
+    fn choice(&self, cover: &Cover, node: usize) -> usize {
+        self.free[node] + 2 - cover.lacks(node)
+    }
+
+    fn push(&mut self, cover: &Cover, node: usize) {
+        self.waiting[node] = true;
+        let choice = self.choice(cover, node);
+        self.by_choice[choice].push(node);
+    }
+
+    /// The node with the least choice, of several the one that came last: so the next is mostly one nearby.
+    fn pop(&mut self, cover: &Cover) -> Option<usize> {
+        loop {
+            let choice = self.by_choice.iter().position(|nodes| !nodes.is_empty())?;
+            let node = self.by_choice[choice].pop()?;
+            if self.waiting[node] && self.choice(cover, node) == choice {
+                self.waiting[node] = false;
+                return Some(node);
+            }
+        }
+    }
+
+    /// A node takes no more mates: its neighbours have one edge less to choose from.
+    fn forget(&mut self, graph: &Graph<'_>, cover: &Cover, full: usize, busy: usize) {
+        for &other in graph.neighbours(full) {
+            if other != busy && !cover.has(full, other) {
+                self.free[other] = self.free[other].saturating_sub(1);
+                if self.waiting[other] {
+                    self.push(cover, other);
+                }
+            }
+        }
+    }
+}
+
 /// Links nodes to mates, always at the node with the fewest edges to spare.
 fn greedy(graph: &Graph<'_>, random: &mut Random) -> Cover {
     let mut cover = Cover::new(graph.nodes());
-    let mut free: Vec<usize> = (0..graph.panels()).map(|node| graph.neighbours(node).len()).collect();
-    let lot: Vec<u64> = free.iter().map(|_| random.next()).collect();
-    // Choice of a node: edges that can still be taken, less those that it needs.
-    let choice =
-        |free: &[usize], cover: &Cover, node: usize| (free[node] + 2 - cover.lacks(node), lot[node], node);
-    let mut queue: BTreeSet<(usize, u64, usize)> =
-        (0..free.len()).map(|node| choice(&free, &cover, node)).collect();
-    while let Some((_, _, node)) = queue.pop_first() {
+    let mut queue = Queue::new(graph, random);
+    let lot: Vec<u64> = (0..graph.panels()).map(|_| random.next()).collect();
+    while let Some(node) = queue.pop(&cover) {
         while cover.lacks(node) > 0 {
             let usable = |other: &&usize| cover.lacks(**other) > 0 && !cover.has(node, **other);
-            let best = graph.neighbours(node).iter().filter(usable).min_by_key(|other| {
-                let (spare, _, _) = choice(&free, &cover, **other);
-                (spare, lot[**other] ^ lot[node])
-            });
+            let best = graph
+                .neighbours(node)
+                .iter()
+                .filter(usable)
+                .min_by_key(|other| (queue.choice(&cover, **other), lot[**other] ^ lot[node]));
             let Some(&mate) = best else { break };
-            queue.remove(&choice(&free, &cover, mate));
             cover.link(node, mate);
-            free[node] = free[node].saturating_sub(1);
-            free[mate] = free[mate].saturating_sub(1);
+            queue.free[node] = queue.free[node].saturating_sub(1);
+            queue.free[mate] = queue.free[mate].saturating_sub(1);
             if cover.lacks(mate) > 0 {
-                queue.insert(choice(&free, &cover, mate));
+                queue.push(&cover, mate);
             } else {
-                forget(graph, &cover, mate, node, &mut free, &mut queue, &choice);
+                queue.waiting[mate] = false;
+                queue.forget(graph, &cover, mate, node);
             }
         }
-        forget(graph, &cover, node, node, &mut free, &mut queue, &choice);
+        queue.forget(graph, &cover, node, node);
     }
     cover
-}
-
-/// A node takes no more mates: its neighbours have one edge less to choose from.
-fn forget(
-    graph: &Graph<'_>,
-    cover: &Cover,
-    full: usize,
-    busy: usize,
-    free: &mut [usize],
-    queue: &mut BTreeSet<(usize, u64, usize)>,
-    choice: &impl Fn(&[usize], &Cover, usize) -> (usize, u64, usize),
-) {
-    for &other in graph.neighbours(full) {
-        if other != busy && !cover.has(full, other) {
-            let waiting = queue.remove(&choice(free, cover, other));
-            free[other] = free[other].saturating_sub(1);
-            if waiting {
-                queue.insert(choice(free, cover, other));
-            }
-        }
-    }
 }
 
 /// Where an alternating walk stands: at a node, about to add an edge or about to remove one.

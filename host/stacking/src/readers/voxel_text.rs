@@ -6,6 +6,9 @@ use crate::voxels::Voxels;
 /// So many voxels fit in memory with ease, and every coordinate in 32 bits.
 pub(super) const VOXEL_LIMIT: usize = 1 << 26;
 
+/// A text holds more: a byte each, as many as a file of a quarter of a gigabyte.
+const TEXT_LIMIT: usize = 1 << 28;
+
 /// A row and its line in the file.
 type Row<'a> = (usize, &'a str);
 
@@ -43,8 +46,8 @@ pub(super) fn read(text: &str) -> Result<Voxels, ModelProblem> {
             return Err(ModelProblem::RaggedSlice { line, slice: z, found: slice.len(), expected: depth });
         }
     }
-    let too_many = ModelProblem::TooManyVoxels { found: solid.len() as u128, limit: VOXEL_LIMIT as u128 };
-    if solid.len() > VOXEL_LIMIT {
+    let too_many = ModelProblem::TooManyVoxels { found: solid.len() as u128, limit: TEXT_LIMIT as u128 };
+    if solid.len() > TEXT_LIMIT {
         return Err(too_many);
     }
     let side = |length: usize| i32::try_from(length).map_err(|_| ModelProblem::NoSolidVoxel);
