@@ -14,6 +14,7 @@ mod folding_map;
 mod hamiltonian;
 mod hinges;
 mod layout;
+mod mesh;
 mod plan;
 mod planner;
 mod random;
@@ -25,7 +26,8 @@ mod voxels;
 
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use hamiltonian::NoStrip;
+pub use mesh::Repair;
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{PlanError, Request, plan};
-pub use readers::{Model, ModelError, ModelProblem};
+pub use readers::{Model, ModelError, ModelProblem, Resolution};
 pub use surface::{Surface, SurfaceError};

@@ -1,10 +1,7 @@
 //! Voxel text: slices from z = 0 up with a blank line between them, rows along x, `#` solid and `.` empty.
 
-use super::ModelProblem;
+use super::{ModelProblem, VOXEL_LIMIT};
 use crate::voxels::Voxels;
-
-/// So many voxels fit in memory with ease, and every coordinate in 32 bits.
-pub(super) const VOXEL_LIMIT: usize = 1 << 26;
 
 /// A row and its line in the file.
 type Row<'a> = (usize, &'a str);
