@@ -86,7 +86,7 @@ fn fill_cavities(voxels: &mut Voxels) -> (usize, usize) {
                     continue;
                 };
                 // From the rim a step may lead round the box to the rim again, which is seen already, or inwards.
-                if !seen[next] && !(on_rim && !are_neighbours(voxels, number, next)) {
+                if !seen[next] && (!on_rim || are_neighbours(voxels, number, next)) {
                     seen[next] = true;
                     reached.push(next);
                 }

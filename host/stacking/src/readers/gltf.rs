@@ -126,7 +126,7 @@ impl Scene {
                 read.into_u32().map(|index| index as usize).collect()
             }
         };
-        if indices.len() % 3 != 0 {
+        if !indices.len().is_multiple_of(3) {
             return Err("three indices a triangle");
         }
         if corners.len() != count || indices.iter().any(|index| *index >= count) {

@@ -1,4 +1,4 @@
-//! MagicaVoxel files (`.vox`): a header, then a `MAIN` chunk around chunks of which `SIZE` and `XYZI` count; colours, materials
+//! `MagicaVoxel` files (`.vox`): a header, then a `MAIN` chunk around chunks of which `SIZE` and `XYZI` count; colours, materials
 //! and layers don't.
 
 use super::ModelProblem;
@@ -10,7 +10,7 @@ use crate::voxels::Voxels;
 /// Bytes that are no such file, a file that ends early, more models than one, a voxel outside the box, no voxel.
 pub(super) fn read(bytes: &[u8]) -> Result<Voxels, ModelProblem> {
     let mut file = Bytes { bytes, at: 0 };
-    file.require_word(b"VOX ", "'VOX '")?;
+    file.require_word(*b"VOX ", "'VOX '")?;
     file.number("a version")?;
     let main = file.chunk()?;
     if main.name != b"MAIN" {
@@ -83,9 +83,9 @@ impl<'a> Bytes<'a> {
         Ok(word)
     }
 
-    fn require_word(&mut self, wanted: &[u8; 4], expected: &'static str) -> Result<(), ModelProblem> {
+    fn require_word(&mut self, wanted: [u8; 4], expected: &'static str) -> Result<(), ModelProblem> {
         let at = self.at;
-        if self.word(expected)? == wanted { Ok(()) } else { Err(self.problem(at, expected)) }
+        if self.word(expected)? == &wanted { Ok(()) } else { Err(self.problem(at, expected)) }
     }
 
     fn number(&mut self, expected: &'static str) -> Result<u32, ModelProblem> {
@@ -110,7 +110,7 @@ impl<'a> Bytes<'a> {
 mod tests {
     use super::*;
 
-    fn chunk(name: &[u8; 4], content: &[u8], children: &[u8]) -> Vec<u8> {
+    fn chunk(name: [u8; 4], content: &[u8], children: &[u8]) -> Vec<u8> {
         let length = |bytes: &[u8]| u32::try_from(bytes.len()).unwrap().to_le_bytes();
         [&name[..], &length(content), &length(children), content, children].concat()
     }
@@ -122,11 +122,11 @@ mod tests {
     fn model_of(sides: [u32; 3], voxels: &[[u8; 4]]) -> Vec<u8> {
         let count = words(&[u32::try_from(voxels.len()).unwrap()]);
         let list = [count, voxels.concat()].concat();
-        [chunk(b"SIZE", &words(&sides), &[]), chunk(b"XYZI", &list, &[])].concat()
+        [chunk(*b"SIZE", &words(&sides), &[]), chunk(*b"XYZI", &list, &[])].concat()
     }
 
     fn file(children: &[u8]) -> Vec<u8> {
-        [&b"VOX "[..], &words(&[150]), &chunk(b"MAIN", &[], children)].concat()
+        [&b"VOX "[..], &words(&[150]), &chunk(*b"MAIN", &[], children)].concat()
     }
 
     fn message(bytes: &[u8]) -> String {
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn a_model_of_three_voxels_is_read_and_its_palette_is_skipped() {
         let three = model_of([2, 2, 1], &[[0, 0, 0, 1], [1, 0, 0, 7], [0, 1, 0, 255]]);
-        let bytes = file(&[three, chunk(b"RGBA", &[9; 1024], &[])].concat());
+        let bytes = file(&[three, chunk(*b"RGBA", &[9; 1024], &[])].concat());
         assert_eq!(read(&bytes).unwrap().boundary().len(), 14);
     }
 

@@ -200,7 +200,10 @@ mod tests {
     fn polygons_of_a_mesh_become_triangles() {
         let found = mesh(&format!("{CORNERS}v 0.5 0.5 1\nf 1 2 5\nf 1 2 3 4\n")).unwrap();
         assert_eq!(found.len(), 3);
-        assert_eq!(found[0][2], [0.5, 0.5, 1.0]);
+        assert_eq!(
+            found[0].map(|corner| corner.map(|c| c.to_string())).concat().join(" "),
+            "0 0 0 1 0 0 0.5 0.5 1"
+        );
         let short = mesh(&format!("{CORNERS}f 1 2\n")).unwrap_err().to_string();
         assert_eq!(short, "line 5: a face with 2 corners, expected at least 3");
     }
