@@ -5,12 +5,13 @@ use crate::output::{say, write_file};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use std::path::PathBuf;
-use zygote_stacking::{Figures, Model, PlanError, Request, fold};
+use zygote_stacking::{Figures, Model, PlanError, Request, Resolution, fold};
 
 /// Arguments of `zygote plan`.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// The shape: voxel text (.txt), a quad mesh on the integer lattice (.obj), or a closed triangle mesh (.stl)
+    /// The shape: voxels (.txt, .vox), a quad mesh on the integer lattice (.obj), or with --voxel a closed
+    /// mesh (.stl, .obj, .ply, .off, .gltf, .glb)
     model: PathBuf,
     /// Number of piles; it divides the number of panels
     #[arg(long, value_name = "K", default_value_t = 1)]
@@ -18,7 +19,7 @@ pub(crate) struct Arguments {
     /// Where to write the plan
     #[arg(short, long, value_name = "PLAN.fold")]
     output: PathBuf,
-    /// Edge of a voxel, in units of the mesh; for .stl only
+    /// Cut a mesh into voxels of this edge, in units of the mesh
     #[arg(long, value_name = "SIZE")]
     voxel: Option<f64>,
     /// The panel that stays fixed [default: the middle of the tree path]
@@ -37,7 +38,10 @@ pub(crate) struct Arguments {
 
 /// Plans, checks the plan as it will stand in the file, and writes it.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let model = Model::read(&arguments.model, arguments.voxel).or_bad_input()?;
+    let model = Model::read(&arguments.model, arguments.voxel.map(Resolution::Voxel)).or_bad_input()?;
+    for repair in model.repairs() {
+        say(format_args!("{}: {repair}", arguments.model.display()));
+    }
     let request = Request {
         piles: arguments.piles,
         root: arguments.root,

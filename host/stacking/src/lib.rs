@@ -17,6 +17,7 @@ mod folding_map;
 mod hamiltonian;
 mod hinges;
 mod layout;
+mod mesh;
 mod net;
 mod plan;
 mod planner;
@@ -32,10 +33,11 @@ mod voxels;
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use cut_edges::CutEdge;
 pub use hamiltonian::NoStrip;
+pub use mesh::Repair;
 pub use net::{Net, Overlaps};
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{PlanError, Request, plan};
-pub use readers::{Model, ModelError, ModelProblem};
+pub use readers::{Model, ModelError, ModelProblem, Resolution};
 pub use reconfigure::{Action, Counts, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind};
 pub use sequence::{
     Column, Difference, Layer, Mounted, Place, Sequence, SequenceError, SequenceProblem, SequenceText,

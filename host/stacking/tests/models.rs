@@ -3,11 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use std::path::PathBuf;
-use zygote_stacking::{Model, PlanError, Request, Surface, check, fold, plan};
+use zygote_stacking::{Model, PlanError, Request, Resolution, Surface, check, fold, plan};
 
 fn model(name: &str) -> Model {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name);
-    Model::read(&path, path.extension().is_some_and(|name| name == "stl").then_some(1.0)).unwrap()
+    Model::read(&path, path.extension().is_some_and(|name| name == "stl").then_some(Resolution::Voxel(1.0)))
+        .unwrap()
 }
 
 fn request(piles: usize) -> Request {

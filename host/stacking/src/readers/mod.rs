@@ -1,14 +1,19 @@
 //! Model files into surfaces: one reader a format, chosen by the file's extension.
 
+mod gltf;
+mod magica_voxel;
 mod model_error;
-mod quad_obj;
+mod obj;
+mod off;
+mod ply;
+mod polygons;
 mod stl;
-mod stl_voxels;
 mod voxel_text;
 
 pub use model_error::{ModelError, ModelProblem};
 
 use crate::dual::Dual;
+use crate::mesh::{Mesh, Repair, Solid, Triangle};
 use crate::surface::{Surface, SurfaceError};
 use std::path::Path;
 use std::str;
@@ -20,6 +25,17 @@ pub struct Model {
     pub(crate) surface: Surface,
     pub(crate) dual: Dual,
     pub(crate) voxel_size: Option<f64>,
+    repairs: Vec<Repair>,
+}
+
+/// So many voxels fit in memory with ease, and every coordinate in 32 bits.
+pub(crate) const VOXEL_LIMIT: usize = 1 << 26;
+
+/// How finely a mesh is cut into voxels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Resolution {
+    /// Edge of a voxel, in units of the mesh, above 0.
+    Voxel(f64),
 }
 
 impl Model {
@@ -29,21 +45,26 @@ impl Model {
     /// Sheets that cross, neighbours of unlike orientation, a surface in pieces.
     pub fn new(name: impl Into<String>, surface: Surface) -> Result<Self, SurfaceError> {
         let dual = Dual::of(&surface)?;
-        Ok(Self { name: name.into(), surface, dual, voxel_size: None })
+        Ok(Self { name: name.into(), surface, dual, voxel_size: None, repairs: Vec::new() })
     }
 
-    /// Reads a model file: voxel text (`.txt`), a lattice quad mesh (`.obj`), or a closed triangle mesh (`.stl`) that is cut
-    /// into voxels with edges of `voxel_size`, in units of the mesh.
+    /// Reads a model file: voxels (`.txt`, `.vox`), a lattice quad mesh (`.obj`), or with a resolution a closed mesh (`.obj`,
+    /// `.stl`, `.ply`, `.off`, `.gltf`, `.glb`) that is cut into voxels.
     ///
     /// # Errors
     /// Whatever is wrong with the file, with its name and the place in it.
-    pub fn read(path: &Path, voxel_size: Option<f64>) -> Result<Self, ModelError> {
-        read(path, voxel_size).map_err(|problem| ModelError { file: path.display().to_string(), problem })
+    pub fn read(path: &Path, resolution: Option<Resolution>) -> Result<Self, ModelError> {
+        read(path, resolution).map_err(|problem| ModelError { file: path.display().to_string(), problem })
     }
 
     /// The file's name, without its folder.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What was repaired or changed on the way from a mesh.
+    pub fn repairs(&self) -> &[Repair] {
+        &self.repairs
     }
 
     /// The surface.
@@ -53,11 +74,15 @@ impl Model {
 }
 
 /// The formats, by extension.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 enum Format {
     VoxelText,
-    QuadObj,
+    MagicaVoxel,
+    Obj,
     Stl,
+    Ply,
+    Off,
+    Gltf,
 }
 
 impl Format {
@@ -65,31 +90,50 @@ impl Format {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
             "txt" => Ok(Self::VoxelText),
-            "obj" => Ok(Self::QuadObj),
+            "vox" => Ok(Self::MagicaVoxel),
+            "obj" => Ok(Self::Obj),
             "stl" => Ok(Self::Stl),
+            "ply" => Ok(Self::Ply),
+            "off" => Ok(Self::Off),
+            "gltf" | "glb" => Ok(Self::Gltf),
             _ => Err(ModelProblem::UnknownFormat { extension }),
         }
     }
 }
 
-fn read(path: &Path, voxel_size: Option<f64>) -> Result<Model, ModelProblem> {
+fn read(path: &Path, resolution: Option<Resolution>) -> Result<Model, ModelProblem> {
     let format = Format::of(path)?;
-    match (format, voxel_size) {
-        (Format::Stl, None) => return Err(ModelProblem::VoxelSizeMissing),
-        (Format::VoxelText | Format::QuadObj, Some(_)) => return Err(ModelProblem::VoxelSizeUnused),
-        (Format::Stl, Some(_)) | (Format::VoxelText | Format::QuadObj, None) => {}
-    }
-    let bytes = std::fs::read(path)?;
-    let surface = match (format, voxel_size) {
-        (Format::VoxelText, _) => Surface::new(voxel_text::read(text(&bytes)?)?.boundary(), Vec::new())?,
-        (Format::QuadObj, _) => quad_obj::read(text(&bytes)?)?,
-        (Format::Stl, size) => {
-            let voxels = stl_voxels::fill(&stl::read(&bytes)?, size.unwrap_or(f64::NAN))?;
-            Surface::new(voxels.boundary(), Vec::new())?
-        }
-    };
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    Ok(Model { voxel_size, ..Model::new(name, surface)? })
+    let Some(resolution) = resolution else {
+        let surface = match format {
+            Format::VoxelText => {
+                Surface::new(voxel_text::read(text(&bytes(path)?)?)?.boundary(), Vec::new())?
+            }
+            Format::MagicaVoxel => Surface::new(magica_voxel::read(&bytes(path)?)?.boundary(), Vec::new())?,
+            Format::Obj => obj::quads(text(&bytes(path)?)?)?,
+            Format::Stl | Format::Ply | Format::Off | Format::Gltf => {
+                return Err(ModelProblem::VoxelSizeMissing);
+            }
+        };
+        return Ok(Model::new(name, surface)?);
+    };
+    let triangles: Vec<Triangle> = match format {
+        Format::VoxelText | Format::MagicaVoxel => return Err(ModelProblem::VoxelSizeUnused),
+        Format::Obj => obj::mesh(text(&bytes(path)?)?)?,
+        Format::Stl => stl::read(&bytes(path)?)?,
+        Format::Ply => ply::read(&bytes(path)?)?,
+        Format::Off => off::read(text(&bytes(path)?)?)?,
+        Format::Gltf => gltf::read(&bytes(path)?)?,
+    };
+    let mesh = Mesh::new(triangles)?;
+    let Resolution::Voxel(size) = resolution;
+    let Solid { voxels, voxel_size, repairs } = mesh.solid(size)?;
+    let surface = Surface::new(voxels.boundary(), Vec::new())?;
+    Ok(Model { voxel_size: Some(voxel_size), repairs, ..Model::new(name, surface)? })
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, ModelProblem> {
+    Ok(std::fs::read(path)?)
 }
 
 fn text(bytes: &[u8]) -> Result<&str, ModelProblem> {

@@ -17,17 +17,20 @@ pub struct ModelError {
 pub enum ModelProblem {
     /// The extension names no format that is known.
     #[error(
-        "unknown format '.{extension}', expected .txt (voxel text), .obj (quad mesh) or .stl (closed mesh)"
+        "unknown format '.{extension}', expected .txt or .vox (voxels), .obj (quads or mesh), \
+         .stl, .ply, .off, .gltf or .glb (mesh)"
     )]
     UnknownFormat {
         /// What was found.
         extension: String,
     },
     /// A triangle mesh without a voxel size.
-    #[error("a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh")]
+    #[error(
+        "a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh, or --panels N"
+    )]
     VoxelSizeMissing,
     /// A voxel size for a file that is on the lattice already.
-    #[error("a voxel size is for .stl files only: this format is on the lattice already")]
+    #[error("a voxel size or a number of panels is for meshes only: this format has voxels already")]
     VoxelSizeUnused,
     /// A voxel size that is no length.
     #[error("voxel size {size}, expected a length above 0")]
@@ -114,7 +117,9 @@ pub enum ModelProblem {
         found: String,
     },
     /// A triangle, or another polygon.
-    #[error("line {line}: a face with {found} corners, expected 4: quads only")]
+    #[error(
+        "line {line}: a face with {found} corners, expected 4: quads only, or --voxel SIZE or --panels N to cut a mesh into voxels"
+    )]
     NotAQuad {
         /// The line.
         line: usize,
@@ -130,6 +135,68 @@ pub enum ModelProblem {
         found: String,
         /// Vertices so far.
         vertices: usize,
+    },
+    /// A polygon of one or two corners.
+    #[error("{place}: a face with {found} corners, expected at least 3")]
+    TooFewCorners {
+        /// The face or its line.
+        place: String,
+        /// Number of corners.
+        found: usize,
+    },
+    /// A corner that is no vertex, in a format that counts from 0.
+    #[error("{place}: vertex number {found}, expected 0 to {}", .vertices.saturating_sub(1))]
+    VertexNumber {
+        /// The face or its line.
+        place: String,
+        /// What was found.
+        found: String,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A PLY file that can't be read.
+    #[error("not a PLY file: {message}")]
+    NotPly {
+        /// What the parser says.
+        message: String,
+    },
+    /// An element of a PLY file without what a mesh needs.
+    #[error("{place}: expected {expected}")]
+    PlyProperty {
+        /// The element.
+        place: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A glTF file that can't be read.
+    #[error("not a glTF file: {message}")]
+    NotGltf {
+        /// What the parser says.
+        message: String,
+    },
+    /// A part of a glTF file that can't be used.
+    #[error("{place}: expected {expected}")]
+    GltfData {
+        /// The part.
+        place: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// Bytes of a binary file that can't be read.
+    #[error("byte {at} of {length}: expected {expected}")]
+    BadBytes {
+        /// The place.
+        at: usize,
+        /// Bytes in the file.
+        length: usize,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// More than one model in a file.
+    #[error("{found} models in the file, expected one: merge them before saving")]
+    SeveralModels {
+        /// How many.
+        found: usize,
     },
     /// An STL file that can't be read.
     #[error("not an STL file: {0}")]
@@ -164,6 +231,19 @@ pub enum ModelProblem {
         size: f64,
         /// The box of the mesh.
         bounds: String,
+    },
+    /// Voxels that don't hang together.
+    #[error(
+        "with voxels of size {size} the mesh is a solid in {count} pieces, expected one: {pieces}; \
+         join them in the mesh, or try smaller voxels"
+    )]
+    SolidInPieces {
+        /// The voxel size.
+        size: f64,
+        /// How many.
+        count: usize,
+        /// Sizes and places of the first few.
+        pieces: String,
     },
     /// The squares make no surface that panels can build.
     #[error(transparent)]

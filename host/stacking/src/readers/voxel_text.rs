@@ -3,9 +3,6 @@
 use super::ModelProblem;
 use crate::voxels::Voxels;
 
-/// So many voxels fit in memory with ease, and every coordinate in 32 bits.
-pub(super) const VOXEL_LIMIT: usize = 1 << 26;
-
 /// A text holds more: a byte each, as many as a file of a quarter of a gigabyte.
 const TEXT_LIMIT: usize = 1 << 28;
 

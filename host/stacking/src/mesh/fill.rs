@@ -4,10 +4,12 @@
 //! triangle is decided edge by edge, for both triangles at an edge by the same arithmetic on the same numbers: so no row
 //! slips between two triangles, wherever it runs, and shells that overlap make one solid.
 
-use super::ModelProblem;
-use super::stl::Corner;
-use super::voxel_text::VOXEL_LIMIT;
+use super::{Corner, Mesh, Triangle};
+use crate::readers::{ModelProblem, VOXEL_LIMIT};
 use crate::voxels::Voxels;
+
+/// Empty layers around the box: the solid may grow by one and still have an empty one around it.
+const MARGIN: i32 = 2;
 
 /// The rows of centres: all numbers in units of voxels, centres at whole numbers and a half.
 struct Rows {
@@ -20,20 +22,18 @@ struct Rows {
 ///
 /// # Errors
 /// A size that is no length, more voxels than fit, or no centre inside.
-pub(super) fn fill(triangles: &[[Corner; 3]], size: f64) -> Result<Voxels, ModelProblem> {
+pub(super) fn fill(mesh: &Mesh, size: f64) -> Result<Voxels, ModelProblem> {
     if !(size.is_finite() && size > 0.0) {
         return Err(ModelProblem::VoxelSize { size });
     }
-    let all = |axis: usize| triangles.iter().flatten().map(move |corner| corner[axis]);
-    let least = [0, 1, 2].map(|axis| all(axis).fold(f64::INFINITY, f64::min));
-    let extent = [0, 1, 2].map(|axis| all(axis).fold(f64::NEG_INFINITY, f64::max) - least[axis]);
+    let Mesh { triangles, least, extent, .. } = mesh;
     let mut rows = Rows::new(extent.map(|length| length / size))?;
     for corners in triangles {
         rows.cross(corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - least[axis]) / size)));
     }
     let voxels = rows.voxels();
     if voxels.any() {
-        Ok(voxels)
+        Ok(voxels.padded(MARGIN))
     } else {
         let [x, y, z] = extent;
         Err(ModelProblem::TooCoarse { size, bounds: format!("{x} x {y} x {z}") })
@@ -58,7 +58,7 @@ impl Rows {
     }
 
     /// Counts the crossings of one triangle with all rows.
-    fn cross(&mut self, corners: [Corner; 3]) {
+    fn cross(&mut self, corners: Triangle) {
         let range = |axis: usize| {
             let low = corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
             let high = corners.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
@@ -115,7 +115,7 @@ fn passes(from: &Corner, to: &Corner, y: f64, z: f64) -> i32 {
 }
 
 /// Where the row at (y, z) meets the plane of a triangle.
-fn crossing_x(corners: &[Corner; 3], y: f64, z: f64) -> f64 {
+fn crossing_x(corners: &Triangle, y: f64, z: f64) -> f64 {
     let [a, b, c] = corners;
     let u = [0, 1, 2].map(|axis| b[axis] - a[axis]);
     let v = [0, 1, 2].map(|axis| c[axis] - a[axis]);
@@ -132,16 +132,20 @@ mod tests {
     use super::*;
 
     /// A box with its corners at `low` and `high`, outer side out, as triangles.
-    fn cuboid(low: Corner, high: Corner) -> Vec<[Corner; 3]> {
+    fn cuboid(low: Corner, high: Corner) -> Vec<Triangle> {
         let unit = Voxels::new([1, 1, 1], vec![true]).boundary();
         let corner = |p: [i32; 3]| [0, 1, 2].map(|axis| if p[axis] == 0 { low[axis] } else { high[axis] });
         let split = |[a, b, c, d]: [[i32; 3]; 4]| [[a, b, c], [a, c, d]];
         unit.into_iter().flat_map(split).map(|triangle| triangle.map(corner)).collect()
     }
 
+    fn fill(triangles: Vec<Triangle>, size: f64) -> Result<Voxels, ModelProblem> {
+        super::fill(&Mesh::new(triangles)?, size)
+    }
+
     #[test]
     fn a_box_fills_with_as_many_voxels_as_it_is_large() {
-        let voxels = fill(&cuboid([-1.0, 2.0, 0.0], [5.0, 6.0, 2.0]), 2.0).unwrap();
+        let voxels = fill(cuboid([-1.0, 2.0, 0.0], [5.0, 6.0, 2.0]), 2.0).unwrap();
         assert_eq!(voxels.boundary().len(), 2 * (3 * 2 + 2 + 3));
     }
 
@@ -150,7 +154,7 @@ mod tests {
         // Voxels of size 2 have their centres on the corners, edges and diagonals of smaller boxes.
         let mut mesh = cuboid([0.0; 3], [8.0; 3]);
         mesh.extend(cuboid([1.0; 3], [7.0; 3]));
-        let voxels = fill(&mesh, 2.0).unwrap();
+        let voxels = fill(mesh.clone(), 2.0).unwrap();
         assert_eq!(voxels.boundary().len(), 6 * 16);
     }
 
@@ -158,15 +162,15 @@ mod tests {
     fn a_cavity_whose_shell_is_turned_inwards_stays_empty() {
         let mut mesh = cuboid([0.0; 3], [3.0; 3]);
         mesh.extend(cuboid([1.0; 3], [2.0; 3]).into_iter().map(|[a, b, c]| [a, c, b]));
-        assert_eq!(fill(&mesh, 1.0).unwrap().boundary().len(), 54 + 6);
+        assert_eq!(fill(mesh.clone(), 1.0).unwrap().boundary().len(), 54 + 6);
     }
 
     #[test]
     fn sizes_that_are_no_lengths_or_too_coarse_or_too_fine_are_refused() {
         let mesh = cuboid([0.0; 3], [1.0; 3]);
-        assert!(matches!(fill(&mesh, 0.0), Err(ModelProblem::VoxelSize { .. })));
-        assert!(matches!(fill(&mesh, f64::NAN), Err(ModelProblem::VoxelSize { .. })));
-        assert!(matches!(fill(&mesh, 3.0), Err(ModelProblem::TooCoarse { .. })));
-        assert!(matches!(fill(&mesh, 1e-9), Err(ModelProblem::TooManyVoxels { .. })));
+        assert!(matches!(fill(mesh.clone(), 0.0), Err(ModelProblem::VoxelSize { .. })));
+        assert!(matches!(fill(mesh.clone(), f64::NAN), Err(ModelProblem::VoxelSize { .. })));
+        assert!(matches!(fill(mesh.clone(), 3.0), Err(ModelProblem::TooCoarse { .. })));
+        assert!(matches!(fill(mesh.clone(), 1e-9), Err(ModelProblem::TooManyVoxels { .. })));
     }
 }
