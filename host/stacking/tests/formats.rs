@@ -1,6 +1,7 @@
 //! One shape in every mesh format, and what becomes of meshes that are not as they should be.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+#![allow(clippy::format_collect, clippy::format_push_string, reason = "small files, plainly written")]
 
 use std::path::PathBuf;
 use zygote_stacking::{Model, Repair, Resolution};
@@ -111,9 +112,9 @@ fn one_shape_gives_the_same_panels_from_every_format() {
     let mut stl = "solid shape\n".to_string();
     for corner in quads.iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]) {
         let [p, q, r] = corner.map(|number| corners[*number].map(|c| c.to_string()).join(" "));
-        stl += &format!(
+        stl.push_str(&format!(
             "facet normal 0 0 0\nouter loop\nvertex {p}\nvertex {q}\nvertex {r}\nendloop\nendfacet\n"
-        );
+        ));
     }
     stl += "endsolid shape\n";
     for (name, bytes) in
