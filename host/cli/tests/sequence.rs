@@ -39,13 +39,13 @@ fn a_sequence_that_was_written_makes_a_valid_plan_with_the_same_sequence() {
 
 #[test]
 fn a_text_is_compared_with_a_plan_and_every_difference_told_with_its_place() {
-    let place = planned("sequence_compare", "i14.txt", "2");
+    let place = planned("sequence_compare", "i14.txt", "1");
     let text = place.zygote(&["sequence", "plan.fold"]).output;
     place.write("same.seq", &format!("# typed by hand\n{text}"));
     let run = place.zygote(&["sequence", "plan.fold", "--compare", "same.seq"]);
     assert_eq!(run.code, 0, "{}", run.errors);
     assert_eq!(run.output, "same.seq: the sequence of plan.fold\n");
-    // The last hinge of the first pile, which is no bridge's, opens otherwise.
+    // The last hinge of the pile opens otherwise.
     let (first, rest) = text.split_once('\n').unwrap();
     let angle = first.rfind(char::is_numeric).unwrap() - 2;
     let other = if &first[angle..angle + 3] == "180" { "270" } else { "180" };

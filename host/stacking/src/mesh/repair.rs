@@ -51,13 +51,6 @@ pub enum Repair {
         /// The voxels in them.
         voxels: usize,
     },
-    /// Voxels that were added or removed to come to a number of panels.
-    Edited {
-        /// How many.
-        voxels: usize,
-        /// Panels before.
-        from: usize,
-    },
 }
 
 impl fmt::Display for Repair {
@@ -75,12 +68,6 @@ impl fmt::Display for Repair {
             }
             Self::Dropped { pieces, voxels } => {
                 write!(f, "dropped {pieces} crumbs ({voxels} voxels) that hang on nothing")
-            }
-            Self::Edited { voxels, from } => {
-                write!(
-                    f,
-                    "added or removed {voxels} voxels to come from {from} panels to the number asked for"
-                )
             }
         }
     }

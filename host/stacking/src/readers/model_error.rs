@@ -25,12 +25,10 @@ pub enum ModelProblem {
         extension: String,
     },
     /// A triangle mesh without a voxel size.
-    #[error(
-        "a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh, or --panels N"
-    )]
+    #[error("a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh")]
     VoxelSizeMissing,
     /// A voxel size for a file that is on the lattice already.
-    #[error("a voxel size or a number of panels is for meshes only: this format has voxels already")]
+    #[error("a voxel size is for meshes only: this format has voxels already")]
     VoxelSizeUnused,
     /// A voxel size that is no length.
     #[error("voxel size {size}, expected a length above 0")]
@@ -118,7 +116,7 @@ pub enum ModelProblem {
     },
     /// A triangle, or another polygon.
     #[error(
-        "line {line}: a face with {found} corners, expected 4: quads only, or --voxel SIZE or --panels N to cut a mesh into voxels"
+        "line {line}: a face with {found} corners, expected 4: quads only, or --voxel SIZE to cut a mesh into voxels"
     )]
     NotAQuad {
         /// The line.

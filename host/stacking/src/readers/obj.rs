@@ -155,7 +155,7 @@ mod tests {
     fn a_triangle_is_refused_with_its_line_and_the_way_out() {
         assert_eq!(
             message("f 1 2 3\n"),
-            "line 5: a face with 3 corners, expected 4: quads only, or --voxel SIZE or --panels N to cut a mesh into voxels"
+            "line 5: a face with 3 corners, expected 4: quads only, or --voxel SIZE to cut a mesh into voxels"
         );
     }
 
