@@ -1,0 +1,102 @@
+//! Cheap proofs that a part has no Hamiltonian cycle, before any search for one.
+
+use super::{Neighbours, pieces};
+
+/// Whether a part may have a Hamiltonian cycle as far as cheap tests can tell: it is in one piece, every panel has two
+/// neighbours, no panel holds it together, and coloured like a chess board it has as many dark panels as light ones.
+pub(super) fn may_have_cycle(part: &Neighbours) -> bool {
+    part.len() > 2
+        && part.iter().all(|near| near.len() >= 2)
+        && pieces(part, |_| true).len() == 1
+        && balanced(part)
+        && !has_articulation(part)
+}
+
+/// Whether the colours are equally many, or the part can't be coloured.
+fn balanced(part: &Neighbours) -> bool {
+    let mut dark: Vec<Option<bool>> = vec![None; part.len()];
+    dark[0] = Some(true);
+    let mut reached = vec![0];
+    while let Some(node) = reached.pop() {
+        let other = dark[node].map(|dark| !dark);
+        for &next in &part[node] {
+            if dark[next].is_none() {
+                dark[next] = other;
+                reached.push(next);
+            } else if dark[next] != other {
+                return true;
+            }
+        }
+    }
+    2 * dark.iter().filter(|dark| **dark == Some(true)).count() == part.len()
+}
+
+/// Whether the part falls apart without one of its nodes (Hopcroft and Tarjan 1973), without recursion.
+fn has_articulation(part: &Neighbours) -> bool {
+    let mut found = vec![usize::MAX; part.len()];
+    let mut low = vec![usize::MAX; part.len()];
+    (found[0], low[0]) = (0, 0);
+    let mut time = 1;
+    let mut children_of_root = 0;
+    let mut way = vec![(0, usize::MAX, 0)];
+    while let Some((node, parent, next)) = way.last_mut() {
+        let (node, parent) = (*node, *parent);
+        if let Some(&other) = part[node].get(*next) {
+            *next += 1;
+            if found[other] == usize::MAX {
+                children_of_root += usize::from(node == 0);
+                (found[other], low[other]) = (time, time);
+                time += 1;
+                way.push((other, node, 0));
+            } else if other != parent {
+                low[node] = low[node].min(found[other]);
+            }
+        } else {
+            way.pop();
+            if parent != usize::MAX {
+                low[parent] = low[parent].min(low[node]);
+                if parent != 0 && low[node] >= found[parent] {
+                    return true;
+                }
+            }
+        }
+    }
+    children_of_root > 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn graph(nodes: usize, edges: &[(usize, usize)]) -> Vec<Vec<usize>> {
+        let mut graph = vec![Vec::new(); nodes];
+        for (a, b) in edges {
+            graph[*a].push(*b);
+            graph[*b].push(*a);
+        }
+        graph
+    }
+
+    #[test]
+    fn a_ring_may_have_a_cycle() {
+        assert!(may_have_cycle(&graph(4, &[(0, 1), (1, 2), (2, 3), (3, 0)])));
+        assert!(may_have_cycle(&graph(3, &[(0, 1), (1, 2), (2, 0)])));
+    }
+
+    #[test]
+    fn two_rings_that_share_a_panel_have_none() {
+        let bow = [(0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 2)];
+        assert!(!may_have_cycle(&graph(5, &bow)));
+        // The same with the shared panel first, where the search begins.
+        let turned = [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 0)];
+        assert!(!may_have_cycle(&graph(5, &turned)));
+    }
+
+    #[test]
+    fn a_dead_end_two_pieces_and_unequal_colours_have_none() {
+        assert!(!may_have_cycle(&graph(4, &[(0, 1), (1, 2), (2, 0), (2, 3)])));
+        assert!(!may_have_cycle(&graph(6, &[(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3)])));
+        let two_and_three = [(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)];
+        assert!(!may_have_cycle(&graph(5, &two_and_three)));
+    }
+}
