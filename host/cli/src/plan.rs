@@ -53,7 +53,7 @@ enum PartitionArgument {
     Mincut,
     /// Equal arcs of one strip
     Arcs,
-    /// The better of both
+    /// Arcs, and parts where arcs find no room
     Auto,
 }
 

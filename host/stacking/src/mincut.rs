@@ -9,7 +9,7 @@ use crate::planner::Bridges;
 use crate::random::Random;
 
 /// Partitions tried.
-const PARTITIONS: usize = 6;
+const PARTITIONS: usize = 4;
 /// Shapes of the grid tried for each partition.
 const GRIDS: usize = 4;
 /// Rounds of matching for each placement, and more of them for each pile: in each another ring is sought for a pile in whose

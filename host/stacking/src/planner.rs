@@ -1,8 +1,5 @@
 //! From a model to a plan: piles from arcs of a strip or from parts with few edges between them, then hinges. The command
 //! `zygote plan` calls it.
-//!
-//! Which of two plans is better: the one on fewer cells; else the one with clearly more bridges, where as many as can be are
-//! asked for (by a tenth); else the one whose tree path is clearly less deep (by a quarter); else that from arcs.
 
 use crate::hamiltonian::NoStrip;
 use crate::hinges;
@@ -10,14 +7,10 @@ use crate::matching::Bridged;
 use crate::mincut::{self, NoMatch};
 use crate::placement::Grid;
 use crate::plan::{HingeKind, Pile, Plan, Source};
-use crate::quality::{Quality, quality};
 use crate::readers::Model;
 use crate::strip_cuts;
 use crate::tree_path;
 use std::collections::BTreeSet;
-
-/// Up to so many panels both ways are tried; beyond, arcs only where parts fail or need more cells than there are piles.
-const BOTH_WAYS: usize = 1000;
 
 /// How the piles are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,7 +19,7 @@ pub enum Partition {
     MinCut,
     /// Equal arcs of one strip through all panels.
     Arcs,
-    /// The better of both.
+    /// Arcs, and parts where arcs find no room.
     #[default]
     Auto,
 }
@@ -141,7 +134,7 @@ pub enum PlanError {
     },
 }
 
-/// Plans a zygote for a model, in the better of the two ways and with as few bridges as can be.
+/// Plans a zygote for a model, from arcs or else from parts, with as few bridges as can be.
 ///
 /// # Errors
 /// A request that can't be met, or a search that ended without success; the message says what was tried.
@@ -166,7 +159,7 @@ pub fn plan_with(model: &Model, request: &Request, options: &Options) -> Result<
         let found = strip_cuts::find(&model.dual, &neighbours, piles, options.bridges, grid, request.seed)?;
         Ok(into_plan(found, model, request))
     };
-    let from_parts = || {
+    let from_parts = || -> Result<Plan, NoMatch> {
         let found = mincut::find(&model.dual, &neighbours, piles, options.bridges, grid, request.seed)?;
         Ok(into_plan(found, model, request))
     };
@@ -175,31 +168,10 @@ pub fn plan_with(model: &Model, request: &Request, options: &Options) -> Result<
         Partition::MinCut => Ok(from_parts()?),
         // A single pile is a strip either way.
         Partition::Auto if piles == 1 => from_arcs(),
-        Partition::Auto => match from_parts() {
-            Ok(parts) if panels > BOTH_WAYS && parts.grid().iter().product::<i32>() as usize == piles => {
-                Ok(parts)
-            }
-            Ok(parts) => Ok(match from_arcs() {
-                Ok(arcs) if !clearly_better(&quality(model, &parts), &quality(model, &arcs)) => arcs,
-                _ => parts,
-            }),
-            Err(parts) => from_arcs().map_err(|arcs| PlanError::NeitherWay { arcs: Box::new(arcs), parts }),
-        },
+        Partition::Auto => from_arcs().or_else(|arcs| {
+            from_parts().map_err(|parts| PlanError::NeitherWay { arcs: Box::new(arcs), parts })
+        }),
     }
-}
-
-/// Whether the first plan is enough better than the second to be taken for its own sake.
-fn clearly_better(first: &Quality, second: &Quality) -> bool {
-    let area = |quality: &Quality| quality.cells;
-    if area(first) != area(second) {
-        return area(first) < area(second);
-    }
-    if 10 * first.bridges.abs_diff(second.bridges) > first.bridges.min(second.bridges)
-        && first.bridges != second.bridges
-    {
-        return first.bridges > second.bridges;
-    }
-    4 * first.depth < 3 * second.depth
 }
 
 fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {

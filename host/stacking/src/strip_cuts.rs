@@ -42,10 +42,8 @@ pub(crate) fn find(
             Err(reason) if number == 0 => return Err(NoStrip::into(reason)),
             Err(_) => {}
         }
-        if let Some(best) = search.best.take() {
-            if let Some(bridged) = best.into_bridged(dual, wanted) {
-                return Ok(bridged);
-            }
+        if let Some(bridged) = search.best.take().and_then(|best| best.into_bridged(dual, wanted)) {
+            return Ok(bridged);
         }
     }
     Err(PlanError::NoLayout {

@@ -145,9 +145,9 @@ fn pass(graph: &Neighbours, first: usize, beyond: &mut [bool], random: &mut Rand
     let mut size = 0;
     let mut gain = vec![0; graph.len()];
     let mut border = Vec::new();
-    for node in 0..graph.len() {
+    for (node, gain) in gain.iter_mut().enumerate() {
         let cut = outer(beyond, node);
-        gain[node] = gain_of(cut, node);
+        *gain = gain_of(cut, node);
         size += cut;
         if cut > 0 {
             border.push(node);
