@@ -1,49 +1,24 @@
-//! From a model to a plan: piles from arcs of a strip or from parts with few edges between them, then hinges. The command
-//! `zygote plan` calls it.
+//! From a model to a plan: strip, arcs, layout, hinges. The command `zygote plan` calls it.
 
-use crate::hamiltonian::NoStrip;
+use crate::arcs::{Joint, Stack};
+use crate::dual::Dual;
+use crate::hamiltonian::{self, NoStrip, Strip};
 use crate::hinges;
-use crate::matching::Bridged;
-use crate::mincut::{self, NoMatch};
-use crate::placement::Grid;
-use crate::plan::{HingeKind, Pile, Plan, Source};
+use crate::layout::{self, Layout};
+use crate::plan::{Pile, Plan, Source};
+use crate::random::Random;
 use crate::readers::Model;
-use crate::strip_cuts;
 use crate::tree_path;
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
 
-/// How the piles are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Partition {
-    /// Parts with few edges between them, each with a strip of its own.
-    MinCut,
-    /// Equal arcs of one strip through all panels.
-    Arcs,
-    /// Arcs, and parts where arcs find no room.
-    #[default]
-    Auto,
-}
-
-/// How many bridges join the piles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Bridges {
-    /// One less than piles: no fold is broken.
-    #[default]
-    Least,
-    /// As many as can be; for each one too many a fold is broken.
-    Most,
-}
-
-/// How to go about it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Options {
-    /// How the piles are made.
-    pub partition: Partition,
-    /// How many bridges join them.
-    pub bridges: Bridges,
-    /// Cells in x and in y that the piles must find room on; none for any.
-    pub grid: Option<[usize; 2]>,
-}
+/// Strips that are tried, each from another seed, until the piles of one find room.
+const STRIPS: u64 = 16;
+/// Panels looked at for each strip, over all the ways of cutting it.
+const CUT_BUDGET: usize = 4_000_000;
+/// Layouts tried for each way of cutting a strip.
+const LAYOUTS: usize = 24;
+/// Panels looked at to compare the depths of layouts that are equally compact.
+const DEPTH_BUDGET: usize = 2_000_000;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -89,16 +64,6 @@ pub enum PlanError {
         /// What was asked for.
         value: f64,
     },
-    /// A grid with too few cells.
-    #[error("a grid of {across} x {along} cells, expected room for {piles} piles")]
-    Grid {
-        /// Cells in x.
-        across: usize,
-        /// Cells in y.
-        along: usize,
-        /// Number of piles.
-        piles: usize,
-    },
     /// No strip through all panels.
     #[error(transparent)]
     NoStrip(#[from] NoStrip),
@@ -121,57 +86,37 @@ pub enum PlanError {
         /// Most piles placed in any of them.
         most: usize,
     },
-    /// No parts whose piles match.
-    #[error(transparent)]
-    NoMatch(#[from] NoMatch),
-    /// Neither of both ways.
-    #[error("{arcs}; {parts}")]
-    NeitherWay {
-        /// Why not from arcs.
-        arcs: Box<PlanError>,
-        /// Why not from parts.
-        parts: NoMatch,
-    },
-}
-
-/// Plans a zygote for a model, from arcs or else from parts, with as few bridges as can be.
-///
-/// # Errors
-/// A request that can't be met, or a search that ended without success; the message says what was tried.
-pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
-    plan_with(model, request, &Options::default())
 }
 
 /// Plans a zygote for a model.
 ///
 /// # Errors
 /// A request that can't be met, or a search that ended without success; the message says what was tried.
-pub fn plan_with(model: &Model, request: &Request, options: &Options) -> Result<Plan, PlanError> {
+pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     let panels = model.surface.len();
     check_request(panels, request)?;
-    let piles = request.piles;
-    let grid = options.grid.map(|[across, along]| Grid { across, along });
-    if let Some(Grid { across, along }) = grid.filter(|grid| grid.cells() < piles) {
-        return Err(PlanError::Grid { across, along, piles });
-    }
     let neighbours = model.dual.neighbours();
-    let from_arcs = || {
-        let found = strip_cuts::find(&model.dual, &neighbours, piles, options.bridges, grid, request.seed)?;
-        Ok(into_plan(found, model, request))
-    };
-    let from_parts = || -> Result<Plan, NoMatch> {
-        let found = mincut::find(&model.dual, &neighbours, piles, options.bridges, grid, request.seed)?;
-        Ok(into_plan(found, model, request))
-    };
-    match options.partition {
-        Partition::Arcs => from_arcs(),
-        Partition::MinCut => Ok(from_parts()?),
-        // A single pile is a strip either way.
-        Partition::Auto if piles == 1 => from_arcs(),
-        Partition::Auto => from_arcs().or_else(|arcs| {
-            from_parts().map_err(|parts| PlanError::NeitherWay { arcs: Box::new(arcs), parts })
-        }),
+    let mut search = Search::new(&model.dual, request, panels);
+    for number in 0..STRIPS {
+        let seed = request.seed.wrapping_add(number.wrapping_mul(0x9E37_79B9));
+        match hamiltonian::find(&neighbours, seed) {
+            Ok(strip) => search.try_strip(&strip),
+            // A proof, or a search that failed on the first seed already; later seeds may fail as they like.
+            Err(reason) if number == 0 => return Err(reason.into()),
+            Err(_) => {}
+        }
+        if let Some(best) = search.best {
+            return Ok(best.into_plan(model, request));
+        }
     }
+    Err(PlanError::NoLayout {
+        piles: request.piles,
+        height: panels / request.piles,
+        strips: STRIPS,
+        cuts: search.cuts,
+        layouts: search.layouts,
+        most: search.most,
+    })
 }
 
 fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
@@ -194,35 +139,127 @@ fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
     Ok(())
 }
 
-fn into_plan(found: Bridged, model: &Model, request: &Request) -> Plan {
-    let Bridged { piles, facing, cells, bridges, breaks } = found;
-    let target = model.surface.quads().to_vec();
-    let mut zygote = vec![[[0; 2]; 4]; facing.len()];
-    for (pile, cell) in piles.iter().zip(&cells) {
-        for panel in pile {
-            zygote[*panel] = facing[*panel].corners(*cell);
+/// Piles that found room.
+struct Found {
+    stack: Stack,
+    layout: Layout,
+    /// Less is better: area of the grid, half its circumference, depth of the tree path.
+    score: (i32, i32, usize),
+}
+
+/// The search over the ways of cutting a strip.
+struct Search<'a> {
+    dual: &'a Dual,
+    piles: usize,
+    random: Random,
+    best: Option<Found>,
+    cuts: usize,
+    layouts: usize,
+    most: usize,
+    panels: usize,
+    depths: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(dual: &'a Dual, request: &Request, panels: usize) -> Self {
+        let random = Random::new(request.seed, 1 << 32);
+        Self {
+            dual,
+            piles: request.piles,
+            random,
+            best: None,
+            cuts: 0,
+            layouts: 0,
+            most: 1,
+            panels,
+            depths: 0,
         }
     }
-    let mut hinges = hinges::of(&piles, &bridges, &facing, &target, &model.dual);
-    let broken: BTreeSet<[usize; 2]> = breaks.into_iter().collect();
-    hinges.retain(|hinge| hinge.kind == HingeKind::Bridge || !broken.contains(&hinge.panels));
-    let root = request.root.unwrap_or_else(|| tree_path::centre(&tree_path::joined(target.len(), &hinges)).0);
-    let piles = cells.into_iter().zip(piles).map(|(cell, panels)| Pile { cell, panels }).collect();
-    Plan {
-        target,
-        zygote,
-        hinges,
-        piles,
-        root,
-        thickness: request.thickness,
-        panel_length_mm: request.panel_length_mm,
-        source: Source {
-            model: model.name.clone(),
-            voxel_size: model.voxel_size,
-            bounds: model.surface.bounds(),
-            seed: request.seed,
-            program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),
-        },
-        schedule: None,
+
+    /// Tries to cut a strip at many places and to lay out the piles of each.
+    fn try_strip(&mut self, strip: &Strip) {
+        let height = self.panels / self.piles;
+        let places = if strip.closed && self.piles > 1 { height } else { 1 };
+        let mut offsets: Vec<usize> = (0..places).collect();
+        self.random.shuffle(&mut offsets);
+        offsets.truncate((CUT_BUDGET / self.panels).max(8));
+        for offset in offsets {
+            let stack = Stack::cut(&strip.order, offset, self.piles, self.dual);
+            self.try_stack(&stack);
+        }
+    }
+
+    fn try_stack(&mut self, stack: &Stack) {
+        self.cuts += 1;
+        let joints = stack.joints(self.dual);
+        for _ in 0..if self.piles == 1 { 1 } else { LAYOUTS } {
+            self.layouts += 1;
+            let layout = match layout::grow(self.piles, &joints, &mut self.random) {
+                Ok(layout) => layout,
+                Err(placed) => {
+                    self.most = self.most.max(placed);
+                    continue;
+                }
+            };
+            let (area, rim) = layout::compactness(&layout.cells.iter());
+            let compared = self.best.as_ref().map(|best| (area, rim).cmp(&(best.score.0, best.score.1)));
+            let affordable = self.depths * self.panels < DEPTH_BUDGET;
+            if compared == Some(Ordering::Greater) || (compared == Some(Ordering::Equal) && !affordable) {
+                continue;
+            }
+            self.depths += 1;
+            let score = (area, rim, depth(stack, &layout.bridges));
+            if self.best.as_ref().is_none_or(|best| score < best.score) {
+                self.best = Some(Found { stack: stack.clone(), layout, score });
+            }
+        }
+    }
+}
+
+/// How deep the tree path is, from its middle.
+fn depth(stack: &Stack, bridges: &[Joint]) -> usize {
+    let mut joined = vec![Vec::new(); stack.facing.len()];
+    let folds = stack.piles.iter().flat_map(|pile| pile.windows(2)).map(|pair| [pair[0], pair[1]]);
+    for [a, b] in folds.chain(bridges.iter().map(|joint| joint.panels)) {
+        joined[a].push(b);
+        joined[b].push(a);
+    }
+    tree_path::centre(&joined).1
+}
+
+impl Found {
+    fn into_plan(self, model: &Model, request: &Request) -> Plan {
+        let Self { stack, layout, .. } = self;
+        let target = model.surface.quads().to_vec();
+        let mut facing = stack.facing;
+        let mut zygote = vec![[[0; 2]; 4]; facing.len()];
+        for (number, pile) in stack.piles.iter().enumerate() {
+            for panel in pile {
+                facing[*panel] = facing[*panel].turned(layout.turns[number]);
+                zygote[*panel] = facing[*panel].corners(layout.cells[number]);
+            }
+        }
+        let hinges = hinges::of(&stack.piles, &layout.bridges, &facing, &target, &model.dual);
+        let root =
+            request.root.unwrap_or_else(|| tree_path::centre(&tree_path::joined(target.len(), &hinges)).0);
+        let cells = layout.cells.into_iter();
+        let piles = cells.zip(stack.piles).map(|(cell, panels)| Pile { cell, panels }).collect();
+        Plan {
+            target,
+            zygote,
+            hinges,
+            piles,
+            root,
+            thickness: request.thickness,
+            panel_length_mm: request.panel_length_mm,
+            source: Source {
+                model: model.name.clone(),
+                voxel_size: model.voxel_size,
+                bounds: model.surface.bounds(),
+                seed: request.seed,
+                program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),
+            },
+            schedule: None,
+        }
     }
 }

@@ -3,9 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use std::path::PathBuf;
-use zygote_stacking::{
-    Bridges, Model, Options, Partition, PlanError, Request, Surface, check, fold, plan, plan_with, quality,
-};
+use zygote_stacking::{Model, PlanError, Request, Surface, check, fold, plan};
 
 fn model(name: &str) -> Model {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name);
@@ -105,59 +103,4 @@ fn the_expansion_ratio_of_the_airplane_is_that_of_its_boxes() {
     // 9 x 8 x 2 into one cell with 92 panels of t = L / 20.
     let made = plan(&model("airplane92.txt"), &Request { thickness: 0.05, ..request(1) }).unwrap();
     assert!((made.expansion_ratio() - 144.0 / 4.6).abs() < 1e-9);
-}
-
-#[test]
-fn parts_reach_numbers_of_piles_and_bridges_that_break_no_rule() {
-    let model = model("fish4000.txt");
-    for piles in [2, 4, 8, 16] {
-        let options = Options { partition: Partition::MinCut, ..Options::default() };
-        let made = plan_with(&model, &request(piles), &options).unwrap_or_else(|e| panic!("K={piles}: {e}"));
-        let report = check(&fold::parse(&fold::write(&made).unwrap()).unwrap());
-        assert!(report.is_valid(), "K={piles}: {:?}", report.lines(3));
-        assert_eq!((report.figures.bridges, report.figures.breaks), (piles - 1, 0));
-        let quality = quality(&model, &made);
-        assert_eq!(quality.cells, piles, "as many cells as piles");
-        assert!(quality.beside <= quality.beside_bound && quality.beside <= quality.cut);
-    }
-}
-
-#[test]
-fn more_bridges_break_as_many_folds_and_no_rule() {
-    let model = model("fish4000.txt");
-    let options = |bridges| Options { partition: Partition::MinCut, bridges, grid: None };
-    let [least, most] = [Bridges::Least, Bridges::Most]
-        .map(|bridges| plan_with(&model, &request(4), &options(bridges)).unwrap());
-    let report = check(&fold::parse(&fold::write(&most).unwrap()).unwrap());
-    assert!(report.is_valid(), "{:?}", report.lines(3));
-    assert!(report.figures.bridges >= 12, "{}", report.figures.bridges);
-    assert_eq!(report.figures.bridges, 3 + report.figures.breaks);
-    assert_eq!(quality(&model, &least).bridges, 3);
-}
-
-#[test]
-fn parts_cut_fewer_edges_than_arcs() {
-    let model = model("fish144.txt");
-    let [parts, arcs] = [Partition::MinCut, Partition::Arcs].map(|partition| {
-        let options = Options { partition, ..Options::default() };
-        quality(&model, &plan_with(&model, &request(4), &options).unwrap())
-    });
-    assert!(parts.cut < arcs.cut, "{parts:?} {arcs:?}");
-}
-
-#[test]
-fn a_grid_that_is_given_is_kept_to_and_one_too_small_is_refused() {
-    let model = model("fish144.txt");
-    for partition in [Partition::MinCut] {
-        for grid in [[2, 2], [3, 2]] {
-            let options = Options { partition, grid: Some(grid), ..Options::default() };
-            let made = plan_with(&model, &request(4), &options).unwrap();
-            assert!(made.piles.iter().all(|pile| {
-                (0..2).all(|axis| (0..grid[axis]).contains(&usize::try_from(pile.cell[axis]).unwrap()))
-            }));
-        }
-        let options = Options { partition, grid: Some([3, 1]), ..Options::default() };
-        let error = plan_with(&model, &request(4), &options).unwrap_err();
-        assert_eq!(error.to_string(), "a grid of 3 x 1 cells, expected room for 4 piles");
-    }
 }

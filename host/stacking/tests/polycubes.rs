@@ -4,10 +4,7 @@
 
 use proptest::prelude::*;
 use std::collections::BTreeSet;
-use zygote_stacking::{
-    Bridges, Model, Options, Partition, PlanError, Request, Surface, SurfaceError, check, fold, plan,
-    plan_with,
-};
+use zygote_stacking::{Model, PlanError, Request, Surface, SurfaceError, check, fold, plan};
 
 type Voxel = [i32; 3];
 
@@ -81,34 +78,6 @@ proptest! {
             // Voxels that enclose a cavity or touch along edges only have several surfaces: refused, and rightly so.
             Err(error) => prop_assert!(matches!(error, SurfaceError::Pieces { .. }), "{}", error),
             Ok(model) => assert_plans(&model, seed, &[1, 2, 4])?,
-        }
-    }
-
-    #[test]
-    fn parts_of_random_solids_are_equal_and_their_bridges_and_breaks_add_up(
-        choices in prop::collection::vec((0..1000usize, 0..6usize), 20..80),
-        piles in 2..7usize,
-        seed in any::<u64>(),
-    ) {
-        let surface = Surface::new(boundary(&solid(&choices)), Vec::new()).unwrap();
-        if let Ok(model) = Model::new("polycube", surface) {
-            prop_assume!(model.surface().len().is_multiple_of(piles));
-            for bridges in [Bridges::Least, Bridges::Most] {
-                let options = Options { partition: Partition::MinCut, bridges, grid: None };
-                match plan_with(&model, &request(piles, seed), &options) {
-                    // A search that ends without success is told as such.
-                    Err(error) => prop_assert!(matches!(error, PlanError::NoMatch(_)), "{}", error),
-                    Ok(made) => {
-                        let height = model.surface().len() / piles;
-                        prop_assert!(made.piles.iter().all(|pile| pile.panels.len() == height));
-                        let report = check(&fold::parse(&fold::write(&made).unwrap()).unwrap());
-                        prop_assert!(report.is_valid(), "K={piles}: {:?}", report.lines(3));
-                        prop_assert_eq!(report.figures.bridges, piles - 1 + report.figures.breaks);
-                        prop_assert!(bridges == Bridges::Most || report.figures.breaks == 0);
-                        prop_assert_eq!(made, plan_with(&model, &request(piles, seed), &options).unwrap());
-                    }
-                }
-            }
         }
     }
 
