@@ -1,3 +1,5 @@
+//! The propagation held against closed forms, brute force and the samples.
+
 use super::*;
 use crate::kinematics::Kinematics;
 use crate::testing::real_plans;
