@@ -72,7 +72,7 @@ fn repository() -> std::path::PathBuf {
 /// Fourteen panels on the mixed rig.
 fn job() -> (Rig, Schedule) {
     let model = Model::read(&repository().join("models/i14.txt"), None).unwrap();
-    let request = Request { piles: 2, root: None, thickness: 0.01, panel_length_mm: 90.0, seed: 0 };
+    let request = Request { piles: 2, ..Request::default() };
     let plan = zygote_stacking::plan(&model, &request).unwrap();
     let text = std::fs::read_to_string(repository().join("models/rigs/mixed.toml")).unwrap();
     let rig = Rig::read("mixed.toml", &text).unwrap();

@@ -3,9 +3,11 @@
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
 use anyhow::{Context, anyhow};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use zygote_stacking::{Figures, Model, PlanError, Request, Resolution, fold};
+use zygote_stacking::{
+    Bridges, Figures, Model, Partition, PlanError, Quality, Request, Resolution, fold, quality,
+};
 
 /// Arguments of `zygote plan`.
 #[derive(Args)]
@@ -31,9 +33,44 @@ pub(crate) struct Arguments {
     /// Panel length in millimetres
     #[arg(long, value_name = "MM", default_value_t = 90.0)]
     panel_length: f64,
+    /// How the piles are made
+    #[arg(long, value_enum, default_value_t = PartitionArgument::Auto)]
+    partition: PartitionArgument,
+    /// How many bridges join the piles
+    #[arg(long, value_enum, default_value_t = BridgesArgument::Most)]
+    bridges: BridgesArgument,
+    /// Cells in x and in y that the piles must find room on [default: as few cells as can be]
+    #[arg(long, value_name = "WxH", value_parser = grid)]
+    grid: Option<[usize; 2]>,
     /// Seed of every random choice
     #[arg(long, default_value_t = 0)]
     seed: u64,
+}
+
+/// `--partition`.
+#[derive(Clone, Copy, ValueEnum)]
+enum PartitionArgument {
+    /// Parts with few edges between them
+    Mincut,
+    /// Equal arcs of one strip
+    Arcs,
+    /// Whichever of both comes out better
+    Auto,
+}
+
+/// `--bridges`.
+#[derive(Clone, Copy, ValueEnum)]
+enum BridgesArgument {
+    /// One less than piles
+    Least,
+    /// As many as can be; each one too many breaks a fold
+    Most,
+}
+
+fn grid(text: &str) -> Result<[usize; 2], String> {
+    let sides = text.split_once('x').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    let told = || format!("'{text}', expected cells in x and y from 1 to 9999, as in 4x4");
+    sides.filter(|sides| sides.iter().all(|side| (1..10_000).contains(side))).ok_or_else(told)
 }
 
 /// Plans, checks the plan as it will stand in the file, and writes it.
@@ -48,14 +85,28 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         thickness: arguments.thickness,
         panel_length_mm: arguments.panel_length,
         seed: arguments.seed,
+        partition: match arguments.partition {
+            PartitionArgument::Mincut => Partition::MinCut,
+            PartitionArgument::Arcs => Partition::Arcs,
+            PartitionArgument::Auto => Partition::Auto,
+        },
+        bridges: match arguments.bridges {
+            BridgesArgument::Least => Bridges::Least,
+            BridgesArgument::Most => Bridges::Most,
+        },
+        grid: arguments.grid,
     };
     let plan = zygote_stacking::plan(&model, &request).map_err(|error| {
         let told = anyhow!("{}: {error}", arguments.model.display());
         match error {
-            PlanError::Indivisible { .. } | PlanError::Root { .. } | PlanError::Length { .. } => {
-                Failure::BadInput(told)
-            }
-            PlanError::NoStrip(_) | PlanError::NoLayout { .. } => Failure::Failed(told),
+            PlanError::Indivisible { .. }
+            | PlanError::Root { .. }
+            | PlanError::Length { .. }
+            | PlanError::Grid { .. } => Failure::BadInput(told),
+            PlanError::NoStrip(_)
+            | PlanError::NoLayout { .. }
+            | PlanError::NoMatch(_)
+            | PlanError::NeitherWay { .. } => Failure::Failed(told),
         }
     })?;
     let bytes = fold::write(&plan).context("the plan can't be written as JSON").or_failed()?;
@@ -68,6 +119,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     write_file(&arguments.output, &bytes)?;
     say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
+    let Quality { depth, cut, beside, .. } = quality(&model, &plan);
+    say(format_args!(
+        "breaks: {}, depth of the tree path: {depth}, cut edges: {cut}, of which between neighbouring piles: {beside}",
+        report.figures.breaks
+    ));
     say(format_args!("root: panel {}", plan.root));
     Ok(())
 }

@@ -104,7 +104,7 @@ pub(crate) fn real_plans() -> Vec<Plan> {
             let quads = boundary(&voxels);
             let lines = (1..=quads.len()).collect();
             let model = Model::new(name, Surface::new(quads, lines).expect("a surface")).expect("one piece");
-            let request = Request { piles, root: None, thickness: 0.05, panel_length_mm: 90.0, seed: 1 };
+            let request = Request { piles, thickness: 0.05, seed: 1, ..Request::default() };
             zygote_stacking::plan(&model, &request).expect("a plan")
         })
         .collect()

@@ -46,6 +46,16 @@ impl Facing {
         Self { turn: (self.turn + quarters) % 4, up: self.up }
     }
 
+    /// Whether the outer side is up.
+    pub(crate) fn is_up(self) -> bool {
+        self.up
+    }
+
+    /// The facing in the mirror image of the whole pile, where up and down, N and S change places.
+    pub(crate) fn mirrored(self) -> Self {
+        Self { turn: (4 - self.turn) % 4, up: !self.up }
+    }
+
     /// The corners of the panel on a cell.
     pub(crate) fn corners(self, cell: [i32; 2]) -> [[i32; 2]; 4] {
         // Corner e is where edge e begins: the clockwise end of its side when the panel looks up, else the other end.
@@ -81,6 +91,15 @@ mod tests {
                     assert_eq!(a[(edge + 1) % 4], b[other]);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn folding_the_mirror_image_gives_the_mirror_image_of_the_fold() {
+        for (turn, number) in (0..4).flat_map(|turn| (0..16).map(move |number| (turn, number))) {
+            let below = Facing { turn, up: true };
+            let folded = below.folded(number / 4, number % 4);
+            assert_eq!(below.mirrored().folded(number / 4, number % 4), folded.mirrored());
         }
     }
 

@@ -33,8 +33,14 @@ struct Way {
     turn: usize,
 }
 
-/// Adds pile after pile, the one with the fewest ways first; or says how many it placed.
-pub(crate) fn grow(piles: usize, joints: &[Joint], random: &mut Random) -> Result<Layout, usize> {
+/// Adds pile after pile, the one with the fewest ways first, on a grid of so many cells where one is given; or says how many
+/// it placed.
+pub(crate) fn grow(
+    piles: usize,
+    joints: &[Joint],
+    grid: Option<[usize; 2]>,
+    random: &mut Random,
+) -> Result<Layout, usize> {
     let mut placed: BTreeMap<usize, ([i32; 2], usize)> = BTreeMap::from([(random.below(piles), ([0, 0], 0))]);
     let mut taken: BTreeSet<[i32; 2]> = BTreeSet::from([[0, 0]]);
     let mut bridges = Vec::with_capacity(piles);
@@ -50,7 +56,7 @@ pub(crate) fn grow(piles: usize, joints: &[Joint], random: &mut Random) -> Resul
                 let side = joint.sides[here].turned(*turn);
                 let [dx, dy] = side.step();
                 let beyond = [cell[0] + dx, cell[1] + dy];
-                if !taken.contains(&beyond) {
+                if !taken.contains(&beyond) && fits(grid, &taken, beyond) {
                     // Turned so that the bridge is on the side across.
                     let turn = side.opposite() as usize + 4 - joint.sides[there] as usize;
                     let way = Way { joint: number, cell: beyond, turn: turn % 4 };
@@ -76,4 +82,15 @@ pub(crate) fn grow(piles: usize, joints: &[Joint], random: &mut Random) -> Resul
     let corner = [0, 1].map(|axis| taken.iter().map(|cell| cell[axis]).min().unwrap_or(0));
     let cells = placed.values().map(|(cell, _)| [cell[0] - corner[0], cell[1] - corner[1]]).collect();
     Ok(Layout { cells, turns: placed.values().map(|(_, turn)| *turn).collect(), bridges })
+}
+
+/// Whether the cells fit on a grid with one more.
+fn fits(grid: Option<[usize; 2]>, taken: &BTreeSet<[i32; 2]>, beyond: [i32; 2]) -> bool {
+    grid.is_none_or(|sides| {
+        (0..2).all(|axis| {
+            let values = || taken.iter().chain([&beyond]).map(|cell| cell[axis]);
+            let span = values().max().unwrap_or(0).abs_diff(values().min().unwrap_or(0));
+            (span as usize) < sides[axis]
+        })
+    })
 }

@@ -1,13 +1,17 @@
 //! From a shape to a **plan**: which panel lies where in the zygote, and which hinges join them.
 //!
 //! ```text
-//! model file -> readers -> Surface (unit squares, dual graph) -> Hamiltonian cycle -> arcs -> Plan -> plan.fold
+//! model file -> readers -> Surface (unit squares, dual graph)
+//!     -> partition, a cycle in every part -> placement -> matching    \
+//!     -> one cycle -> arcs -> layout                                  -> Plan -> plan.fold
 //! ```
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
 
 mod arcs;
 mod bridge_tree;
+mod by_arcs;
+mod by_parts;
 mod check;
 mod cut_edges;
 mod cuts;
@@ -17,10 +21,14 @@ mod folding_map;
 mod hamiltonian;
 mod hinges;
 mod layout;
+mod matching;
 mod mesh;
 mod net;
+mod partition;
+mod placement;
 mod plan;
 mod planner;
+mod quality;
 mod random;
 mod readers;
 mod reconfigure;
@@ -30,13 +38,15 @@ mod surface;
 mod tree_path;
 mod voxels;
 
+pub use by_parts::NoMatch;
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use cut_edges::CutEdge;
 pub use hamiltonian::NoStrip;
 pub use mesh::Repair;
 pub use net::{Net, Overlaps};
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
-pub use planner::{PlanError, Request, plan};
+pub use planner::{Bridges, Partition, PlanError, Request, plan};
+pub use quality::{Quality, quality};
 pub use readers::{Model, ModelError, ModelProblem, Resolution};
 pub use reconfigure::{Action, Counts, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind};
 pub use sequence::{

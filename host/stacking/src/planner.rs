@@ -1,22 +1,37 @@
-//! From a model to a plan: strip, arcs, layout, hinges. The command `zygote plan` calls it.
+//! From a model to a plan: piles from parts with few edges between them or from arcs of a strip, then hinges. The command
+//! `zygote plan` calls it.
 
-use crate::arcs::Stack;
-use crate::bridge_tree;
-use crate::cuts::Cuts;
-use crate::hamiltonian::{self, NoStrip, Strip};
+use crate::by_arcs;
+use crate::by_parts::{self, NoMatch};
+use crate::hamiltonian::NoStrip;
 use crate::hinges;
-use crate::layout::{self, Layout};
-use crate::plan::{Pile, Plan, Source};
-use crate::random::Random;
+use crate::matching::Bridged;
+use crate::plan::{HingeKind, Pile, Plan, Source};
 use crate::readers::Model;
 use crate::tree_path;
+use std::collections::BTreeSet;
 
-/// Strips that are tried, each from another seed, until the piles of one find room.
-const STRIPS: u64 = 16;
-/// Ways of cutting a strip that are tried.
-const CUTS: usize = 600;
-/// Layouts tried for each way of cutting a strip.
-const LAYOUTS: usize = 24;
+/// How the piles are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Partition {
+    /// Parts with few edges between them, each with a strip of its own.
+    MinCut,
+    /// Equal arcs of one strip through all panels.
+    Arcs,
+    /// Whichever of both comes out better.
+    #[default]
+    Auto,
+}
+
+/// How many bridges join the piles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Bridges {
+    /// One less than piles: no fold is broken.
+    Least,
+    /// As many as can be; for each one too many a fold is broken.
+    #[default]
+    Most,
+}
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -31,6 +46,28 @@ pub struct Request {
     pub panel_length_mm: f64,
     /// Seed of every random choice.
     pub seed: u64,
+    /// How the piles are made.
+    pub partition: Partition,
+    /// How many bridges join them.
+    pub bridges: Bridges,
+    /// Cells in x and in y that the piles must find room on; none for as few as can be.
+    pub grid: Option<[usize; 2]>,
+}
+
+impl Default for Request {
+    /// One pile of panels of 90 mm, a hundredth as thick.
+    fn default() -> Self {
+        Self {
+            piles: 1,
+            root: None,
+            thickness: 0.01,
+            panel_length_mm: 90.0,
+            seed: 0,
+            partition: Partition::default(),
+            bridges: Bridges::default(),
+            grid: None,
+        }
+    }
 }
 
 /// Why there is no plan.
@@ -62,6 +99,16 @@ pub enum PlanError {
         /// What was asked for.
         value: f64,
     },
+    /// A grid with too few cells.
+    #[error("a grid of {across} x {along} cells, expected room for {piles} piles")]
+    Grid {
+        /// Cells in x.
+        across: usize,
+        /// Cells in y.
+        along: usize,
+        /// Number of piles.
+        piles: usize,
+    },
     /// No strip through all panels.
     #[error(transparent)]
     NoStrip(#[from] NoStrip),
@@ -84,6 +131,17 @@ pub enum PlanError {
         /// Most piles placed in any of them.
         most: usize,
     },
+    /// No parts whose piles match.
+    #[error(transparent)]
+    NoMatch(#[from] NoMatch),
+    /// Neither of both ways.
+    #[error("{parts}; {arcs}")]
+    NeitherWay {
+        /// Why not by parts.
+        parts: NoMatch,
+        /// Why not by arcs.
+        arcs: Box<PlanError>,
+    },
 }
 
 /// Plans a zygote for a model.
@@ -91,32 +149,23 @@ pub enum PlanError {
 /// # Errors
 /// A request that can't be met, or a search that ended without success; the message says what was tried.
 pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
-    let panels = model.surface.len();
-    check_request(panels, request)?;
+    check_request(model.surface.len(), request)?;
     let neighbours = model.dual.neighbours();
-    let mut search = Search::new(request, panels);
-    for number in 0..STRIPS {
-        let seed = request.seed.wrapping_add(number.wrapping_mul(0x9E37_79B9));
-        let strip = match hamiltonian::find(&neighbours, seed) {
-            Ok(strip) => strip,
-            // A proof, or a search that failed on the first seed already; later seeds may fail as they like.
-            Err(reason) if number == 0 => return Err(reason.into()),
-            Err(_) => continue,
-        };
-        let cuts = Cuts::of(&strip.order, request.piles, &model.dual);
-        search.try_cuts(&cuts, strip.closed);
-        if let Some(best) = search.best {
-            return Ok(best.into_plan(&strip, &cuts, model, request));
-        }
-    }
-    Err(PlanError::NoLayout {
-        piles: request.piles,
-        height: panels / request.piles,
-        strips: STRIPS,
-        cuts: search.cuts,
-        layouts: search.layouts,
-        most: search.most,
-    })
+    let by_arcs = || by_arcs::find(&model.dual, &neighbours, request);
+    let by_parts = || by_parts::find(&model.dual, &neighbours, request);
+    let found = match request.partition {
+        Partition::Arcs => by_arcs()?,
+        Partition::MinCut => by_parts()?,
+        // A single pile is a strip either way.
+        Partition::Auto if request.piles == 1 => by_arcs()?,
+        Partition::Auto => match by_parts() {
+            Ok(found) => found,
+            Err(parts) => {
+                by_arcs().map_err(|arcs| PlanError::NeitherWay { arcs: Box::new(arcs), parts })?
+            }
+        },
+    };
+    Ok(into_plan(found, model, request))
 }
 
 fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
@@ -131,6 +180,9 @@ fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
     if let Some(root) = request.root.filter(|root| *root >= panels) {
         return Err(PlanError::Root { root, last: panels - 1 });
     }
+    if let Some([across, along]) = request.grid.filter(|[across, along]| across * along < piles) {
+        return Err(PlanError::Grid { across, along, piles });
+    }
     for (what, value) in [("thickness", request.thickness), ("panel length", request.panel_length_mm)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(PlanError::Length { what, value });
@@ -139,107 +191,35 @@ fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
     Ok(())
 }
 
-/// Piles that found room.
-struct Found {
-    /// Where the first arc begins.
-    offset: usize,
-    layout: Layout,
-    /// Less is better: area of the grid, half its circumference, depth of the tree path.
-    score: (i32, i32, usize),
-}
-
-/// The search over the ways of cutting a strip.
-struct Search {
-    piles: usize,
-    height: usize,
-    random: Random,
-    best: Option<Found>,
-    cuts: usize,
-    layouts: usize,
-    most: usize,
-}
-
-impl Search {
-    fn new(request: &Request, panels: usize) -> Self {
-        let random = Random::new(request.seed, 1 << 32);
-        let (piles, height) = (request.piles, panels / request.piles);
-        Self { piles, height, random, best: None, cuts: 0, layouts: 0, most: 1 }
-    }
-
-    /// Tries to cut a strip at many places and to lay out the piles of each.
-    fn try_cuts(&mut self, cuts: &Cuts<'_>, closed: bool) {
-        let places = if closed && self.piles > 1 { self.height } else { 1 };
-        let mut offsets: Vec<usize> = (0..places).collect();
-        self.random.shuffle(&mut offsets);
-        offsets.truncate(CUTS);
-        for offset in offsets {
-            self.try_offset(cuts, offset);
+fn into_plan(found: Bridged, model: &Model, request: &Request) -> Plan {
+    let Bridged { piles, facing, cells, bridges, breaks } = found;
+    let target = model.surface.quads().to_vec();
+    let mut zygote = vec![[[0; 2]; 4]; facing.len()];
+    for (pile, cell) in piles.iter().zip(&cells) {
+        for panel in pile {
+            zygote[*panel] = facing[*panel].corners(*cell);
         }
     }
-
-    fn try_offset(&mut self, cuts: &Cuts<'_>, offset: usize) {
-        self.cuts += 1;
-        let joints = cuts.joints(offset);
-        for _ in 0..if self.piles == 1 { 1 } else { LAYOUTS } {
-            self.layouts += 1;
-            let layout = match layout::grow(self.piles, &joints, &mut self.random) {
-                Ok(layout) => layout,
-                Err(placed) => {
-                    self.most = self.most.max(placed);
-                    continue;
-                }
-            };
-            let (area, rim) = layout::compactness(&layout.cells.iter());
-            let bridges = layout.bridges.iter().map(|joint| {
-                let (_, height) = cuts.pile_and_height(joint.panels[0], offset);
-                (joint.piles, height)
-            });
-            let depth = bridge_tree::depth(self.piles, self.height, &bridges.collect::<Vec<_>>());
-            let score = (area, rim, depth);
-            if self.best.as_ref().is_none_or(|best| score < best.score) {
-                self.best = Some(Found { offset, layout, score });
-            }
-        }
-    }
-}
-
-impl Found {
-    fn into_plan(self, strip: &Strip, cuts: &Cuts<'_>, model: &Model, request: &Request) -> Plan {
-        let Self { offset, mut layout, .. } = self;
-        let stack = Stack::cut(&strip.order, offset, request.piles, &model.dual);
-        for (turn, pile) in layout.turns.iter_mut().zip(&stack.piles) {
-            *turn += cuts.turn_of(pile[0], offset);
-        }
-        let target = model.surface.quads().to_vec();
-        let mut facing = stack.facing;
-        let mut zygote = vec![[[0; 2]; 4]; facing.len()];
-        for (number, pile) in stack.piles.iter().enumerate() {
-            for panel in pile {
-                facing[*panel] = facing[*panel].turned(layout.turns[number]);
-                zygote[*panel] = facing[*panel].corners(layout.cells[number]);
-            }
-        }
-        let hinges = hinges::of(&stack.piles, &layout.bridges, &facing, &target, &model.dual);
-        let root =
-            request.root.unwrap_or_else(|| tree_path::centre(&tree_path::joined(target.len(), &hinges)).0);
-        let cells = layout.cells.into_iter();
-        let piles = cells.zip(stack.piles).map(|(cell, panels)| Pile { cell, panels }).collect();
-        Plan {
-            target,
-            zygote,
-            hinges,
-            piles,
-            root,
-            thickness: request.thickness,
-            panel_length_mm: request.panel_length_mm,
-            source: Source {
-                model: model.name.clone(),
-                voxel_size: model.voxel_size,
-                bounds: model.surface.bounds(),
-                seed: request.seed,
-                program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),
-            },
-            schedule: None,
-        }
+    let mut hinges = hinges::of(&piles, &bridges, &facing, &target, &model.dual);
+    let broken: BTreeSet<[usize; 2]> = breaks.into_iter().collect();
+    hinges.retain(|hinge| hinge.kind == HingeKind::Bridge || !broken.contains(&hinge.panels));
+    let root = request.root.unwrap_or_else(|| tree_path::centre(&tree_path::joined(target.len(), &hinges)).0);
+    let piles = cells.into_iter().zip(piles).map(|(cell, panels)| Pile { cell, panels }).collect();
+    Plan {
+        target,
+        zygote,
+        hinges,
+        piles,
+        root,
+        thickness: request.thickness,
+        panel_length_mm: request.panel_length_mm,
+        source: Source {
+            model: model.name.clone(),
+            voxel_size: model.voxel_size,
+            bounds: model.surface.bounds(),
+            seed: request.seed,
+            program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),
+        },
+        schedule: None,
     }
 }

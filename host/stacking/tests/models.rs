@@ -12,7 +12,7 @@ fn model(name: &str) -> Model {
 }
 
 fn request(piles: usize) -> Request {
-    Request { piles, root: None, thickness: 0.01, panel_length_mm: 90.0, seed: 0 }
+    Request { piles, ..Request::default() }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use zygote_stacking::{Model, Request, check, fold, plan};
 static FISH: LazyLock<Value> = LazyLock::new(|| {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models/fish92.txt");
     let model = Model::read(&path, None).unwrap();
-    let request = Request { piles: 4, root: None, thickness: 0.01, panel_length_mm: 90.0, seed: 0 };
+    let request = Request { piles: 4, ..Request::default() };
     fold::parse(&fold::write(&plan(&model, &request).unwrap()).unwrap()).unwrap()
 });
 

@@ -31,7 +31,7 @@ fn the_ratios_in_the_book_are_those_of_the_plans() {
         let slenderness: f64 = slenderness.parse().unwrap();
         let piles = piles.parse().unwrap();
         let request =
-            Request { piles, root: None, thickness: 1.0 / slenderness, panel_length_mm: 90.0, seed: 0 };
+            Request { piles, thickness: 1.0 / slenderness, ..Request::default() };
         let model = Model::read(&repository.join("models").join(name), None).unwrap();
         let plan = plan(&model, &request).unwrap();
         let figures = check(&fold::parse(&fold::write(&plan).unwrap()).unwrap()).figures;

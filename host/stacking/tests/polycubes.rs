@@ -51,7 +51,7 @@ fn boundary(solid: &BTreeSet<Voxel>) -> Vec<[Voxel; 4]> {
 }
 
 fn request(piles: usize, seed: u64) -> Request {
-    Request { piles, root: None, thickness: 0.01, panel_length_mm: 90.0, seed }
+    Request { piles, seed, ..Request::default() }
 }
 
 fn assert_plans(model: &Model, seed: u64, piles: &[usize]) -> Result<(), TestCaseError> {

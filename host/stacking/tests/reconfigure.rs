@@ -11,7 +11,7 @@ use zygote_stacking::{
 fn planned(name: &str, piles: usize, seed: u64) -> Plan {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name);
     let model = Model::read(&path, None).unwrap();
-    let request = Request { piles, root: None, thickness: 0.01, panel_length_mm: 90.0, seed };
+    let request = Request { piles, seed, ..Request::default() };
     zygote_stacking::plan(&model, &request).unwrap()
 }
 

@@ -8,7 +8,7 @@ use zygote_stacking::{Model, Plan, Request, Sequence, SequenceText, check, fold}
 fn planned(name: &str, piles: usize) -> Plan {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name);
     let model = Model::read(&path, None).unwrap();
-    let request = Request { piles, root: None, thickness: 0.01, panel_length_mm: 90.0, seed: 3 };
+    let request = Request { piles, seed: 3, ..Request::default() };
     zygote_stacking::plan(&model, &request).unwrap()
 }
 

@@ -82,11 +82,10 @@ pub enum SingleStripError {
 pub fn single_strip(plan: &Plan) -> Result<Plan, SingleStripError> {
     let model = Model::new(plan.source.model.clone(), Surface::new(plan.target.clone(), Vec::new())?)?;
     let request = Request {
-        piles: 1,
-        root: None,
         thickness: plan.thickness,
         panel_length_mm: plan.panel_length_mm,
         seed: plan.source.seed,
+        ..Request::default()
     };
     Ok(zygote_stacking::plan(&model, &request)?)
 }

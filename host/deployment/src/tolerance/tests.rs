@@ -12,7 +12,7 @@ const ERRORS: HingeErrors = HingeErrors { angle_rad: 0.002, offset: 0.0005 };
 fn row(panels: i32) -> Plan {
     let quads = (0..panels).map(|x| [[x, 0, 0], [x + 1, 0, 0], [x + 1, 1, 0], [x, 1, 0]]).collect();
     let model = Model::new("row", Surface::new(quads, Vec::new()).expect("a surface")).expect("one piece");
-    let request = Request { piles: 1, root: Some(0), thickness: 0.05, panel_length_mm: 90.0, seed: 0 };
+    let request = Request { root: Some(0), thickness: 0.05, ..Request::default() };
     zygote_stacking::plan(&model, &request).expect("a plan")
 }
 

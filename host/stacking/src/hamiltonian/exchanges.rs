@@ -15,16 +15,14 @@ const STARTS: usize = 24;
 const STEPS: usize = 6000;
 /// How far from the cycle in question a kick may begin, in panels.
 const KICK_DISTANCE: usize = 8;
-/// Kicks without a fall in the number of cycles before the search gives up.
-const KICKS: usize = 400;
 
 type Edges = Vec<(usize, usize)>;
 
-/// Joins cycles as far as possible and returns how many are left.
-pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -> usize {
+/// Joins cycles as far as possible and returns how many are left. Gives up after so many kicks without a fall in their number.
+pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, most_kicks: usize, random: &mut Random) -> usize {
     let mut cycles = Cycles::of(cover);
     let mut kicks = 0;
-    while cycles.count() > 1 && kicks < KICKS {
+    while cycles.count() > 1 && kicks < most_kicks {
         // The shortest cycles take turns while they resist, but never the longest of all.
         let short = cycles.shortest((1 + kicks % 4).min(cycles.count() - 1));
         let Some(&(length, member)) = short.last() else { break };

@@ -4,11 +4,31 @@
 pub(super) struct Graph<'a> {
     neighbours: &'a [Vec<usize>],
     with_apex: bool,
+    /// Edges that the cycle should keep to, sorted, the lower node first.
+    lanes: Vec<(usize, usize)>,
 }
 
 impl<'a> Graph<'a> {
     pub(super) fn new(neighbours: &'a [Vec<usize>], with_apex: bool) -> Self {
-        Self { neighbours, with_apex }
+        Self { neighbours, with_apex, lanes: Vec::new() }
+    }
+
+    /// The same graph with edges that the cycle should keep to.
+    pub(super) fn along(mut self, lanes: &[(usize, usize)]) -> Self {
+        self.lanes = lanes.iter().map(|(u, v)| (*u.min(v), *u.max(v))).collect();
+        self.lanes.sort_unstable();
+        self.lanes.dedup();
+        self
+    }
+
+    /// The edges that the cycle should keep to.
+    pub(super) fn lanes(&self) -> &[(usize, usize)] {
+        &self.lanes
+    }
+
+    /// Whether an edge is one that the cycle should keep to.
+    pub(super) fn is_lane(&self, u: usize, v: usize) -> bool {
+        !self.lanes.is_empty() && self.lanes.binary_search(&(u.min(v), u.max(v))).is_ok()
     }
 
     /// The number of panels, without the apex.

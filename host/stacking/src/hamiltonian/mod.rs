@@ -22,6 +22,12 @@ use graph::Graph;
 
 /// How many seeds each search gets.
 const ATTEMPTS: u64 = 6;
+/// The same for one part of many.
+const ATTEMPTS_IN_PART: u64 = 2;
+/// Kicks without success before an attempt gives up.
+const KICKS: usize = 400;
+/// The same in one part of many.
+const KICKS_IN_PART: usize = 40;
 
 /// All panels in a row, each the neighbour of the next.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -85,21 +91,47 @@ pub(crate) fn find(neighbours: &[Vec<usize>], seed: u64) -> Result<Strip, NoStri
         if !with_apex && !cycle_possible {
             continue;
         }
+        let graph = Graph::new(neighbours, with_apex);
         for attempt in 0..ATTEMPTS {
             attempts += 1;
-            let graph = Graph::new(neighbours, with_apex);
             let mut random = Random::new(seed, 2 * attempt + u64::from(with_apex));
-            let Some(mut cover) = two_factor::find(&graph, &mut random) else { continue };
-            faces::merge(&graph, &mut cover);
-            let pieces = exchanges::merge(&graph, &mut cover, &mut random);
-            if pieces == 1 {
-                return Ok(Strip { order: cover.order(graph.apex()), closed: !with_apex });
+            match search(&graph, KICKS, &mut random) {
+                Ok(strip) => return Ok(strip),
+                Err(pieces) => fewest = fewest.min(pieces),
             }
-            fewest = fewest.min(pieces);
         }
     }
     let pieces = if fewest == usize::MAX { 0 } else { fewest };
     Err(NoStrip::NotFound { panels, attempts, pieces })
+}
+
+/// Finds a cycle through all panels of a part, or a path where no cycle is asked for, with little effort: there are other
+/// parts. It keeps to the edges of the lanes as far as they can be kept.
+pub(crate) fn find_in_part(
+    neighbours: &[Vec<usize>],
+    lanes: &[(usize, usize)],
+    closed: bool,
+    seed: u64,
+) -> Option<Strip> {
+    if neighbours.len() <= 2 {
+        return (!closed).then(|| Strip { order: (0..neighbours.len()).collect(), closed: false });
+    }
+    if !obstacles::look_for(neighbours).is_ok_and(|cycle_possible| cycle_possible || !closed) {
+        return None;
+    }
+    let graph = Graph::new(neighbours, !closed).along(lanes);
+    (0..ATTEMPTS_IN_PART)
+        .find_map(|attempt| search(&graph, KICKS_IN_PART, &mut Random::new(seed, 2 * attempt)).ok())
+}
+
+/// One attempt; where it fails it says in how many pieces the best cover was.
+fn search(graph: &Graph<'_>, kicks: usize, random: &mut Random) -> Result<Strip, usize> {
+    let mut cover = two_factor::find(graph, random).ok_or(usize::MAX)?;
+    faces::merge(graph, &mut cover);
+    match exchanges::merge(graph, &mut cover, kicks, random) {
+        1 => Ok(Strip { order: cover.order(graph.apex()), closed: graph.apex().is_none() }),
+        pieces => Err(pieces),
+    }
 }
 
 #[cfg(test)]

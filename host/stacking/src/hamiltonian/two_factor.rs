@@ -79,6 +79,20 @@ impl Queue {
         }
     }
 
+    /// Links two nodes that wait.
+    fn link(&mut self, graph: &Graph<'_>, cover: &mut Cover, u: usize, v: usize) {
+        cover.link(u, v);
+        for (node, mate) in [(u, v), (v, u)] {
+            self.free[node] = self.free[node].saturating_sub(1);
+            if cover.lacks(node) > 0 {
+                self.push(cover, node);
+            } else {
+                self.waiting[node] = false;
+                self.forget(graph, cover, node, mate);
+            }
+        }
+    }
+
     /// A node takes no more mates: its neighbours have one edge less to choose from.
     fn forget(&mut self, graph: &Graph<'_>, cover: &Cover, full: usize, busy: usize) {
         for &other in graph.neighbours(full) {
@@ -92,10 +106,15 @@ impl Queue {
     }
 }
 
-/// Links nodes to mates, always at the node with the fewest edges to spare.
+/// Links nodes to mates: along the lanes, then always at the node with the fewest edges to spare.
 fn greedy(graph: &Graph<'_>, random: &mut Random) -> Cover {
     let mut cover = Cover::new(graph.nodes());
     let mut queue = Queue::new(graph, random);
+    for &(u, v) in graph.lanes() {
+        if cover.lacks(u) > 0 && cover.lacks(v) > 0 {
+            queue.link(graph, &mut cover, u, v);
+        }
+    }
     let lot: Vec<u64> = (0..graph.panels()).map(|_| random.next()).collect();
     while let Some(node) = queue.pop(&cover) {
         while cover.lacks(node) > 0 {

@@ -1,0 +1,144 @@
+//! Piles from parts with few edges between them: partition, rings, placement, matching. The other way beside arcs of one
+//! strip; it reaches numbers of piles that arcs don't.
+
+use crate::dual::Dual;
+use crate::hamiltonian::Strip;
+use crate::matching::{self, Bridged, Opener};
+use crate::partition::{self, Borders, Numbering};
+use crate::placement::{self, Grid, Weights};
+use crate::planner::Request;
+use crate::random::Random;
+
+/// Partitions tried.
+const PARTITIONS: usize = 4;
+/// Shapes of the grid tried for each partition.
+const GRIDS: usize = 3;
+/// Steps of matching for each placement and pile: in each a pile is opened anew.
+const STEPS_A_PILE: usize = 12;
+
+/// Why there are no piles from parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "no {piles} parts that match found: tried {partitions} partitions, {ringed} of which had a strip in every part, \
+     {placements} placements and {rings} other rings in them"
+)]
+pub struct NoMatch {
+    /// Number of piles.
+    pub piles: usize,
+    /// Partitions tried.
+    pub partitions: usize,
+    /// Those with a strip in every part.
+    pub ringed: usize,
+    /// Placements tried in which the parts hung together.
+    pub placements: usize,
+    /// Rings sought anew because piles did not match.
+    pub rings: usize,
+}
+
+/// Cuts the surface into parts and joins their piles.
+///
+/// # Errors
+/// The search's end, which proves nothing.
+pub(crate) fn find(dual: &Dual, neighbours: &[Vec<usize>], request: &Request) -> Result<Bridged, NoMatch> {
+    let piles = request.piles;
+    let mut random = Random::new(request.seed, 1 << 33);
+    let all: Vec<usize> = (0..neighbours.len()).collect();
+    let mut tried = NoMatch { piles, partitions: 0, ringed: 0, placements: 0, rings: 0 };
+    let grids = request.grid.map_or_else(|| Grid::for_parts(piles), |grid| vec![Grid::of(grid)]);
+    for _ in 0..PARTITIONS {
+        tried.partitions += 1;
+        let Some(mut parts) = partition::split(neighbours, &all, piles, &mut random) else { continue };
+        let Some(rings) = partition::rings(neighbours, &mut parts, &mut random) else { continue };
+        tried.ringed += 1;
+        let weights = weights(neighbours, &parts);
+        for grid in grids.iter().take(GRIDS) {
+            let placement = placement::place(&weights, *grid, &mut random);
+            if !placement.worth.whole() {
+                continue;
+            }
+            tried.placements += 1;
+            let placed = Placed { dual, neighbours, parts: &parts, cells: &placement.cells, request };
+            if let Some(bridged) = placed.joined(&rings, &weights, &mut tried, &mut random) {
+                return Ok(bridged);
+            }
+        }
+    }
+    Err(tried)
+}
+
+/// Parts on their cells.
+struct Placed<'a> {
+    dual: &'a Dual,
+    neighbours: &'a [Vec<usize>],
+    parts: &'a [Vec<usize>],
+    cells: &'a [[i32; 2]],
+    request: &'a Request,
+}
+
+impl Placed<'_> {
+    /// Opens the rings so that they match, and builds the bridges. While the piles hang together in groups only, piles
+    /// beside another group are opened anew.
+    fn joined(
+        &self,
+        rings: &[Strip],
+        weights: &Weights,
+        tried: &mut NoMatch,
+        random: &mut Random,
+    ) -> Option<Bridged> {
+        let borders = Borders::of(self.parts);
+        let mut numbering = Numbering::new(self.neighbours.len());
+        let mut other = |pile: usize, along_borders: bool, random: &mut Random| {
+            let beside =
+                |part: usize| along_borders && distance(self.cells[pile], self.cells[part]) == 1;
+            let lanes = borders.lanes(self.neighbours, &self.parts[pile], beside);
+            partition::again(self.neighbours, &self.parts[pile], &lanes, &mut numbering, random)
+        };
+        let mut rings = rings.to_vec();
+        for (pile, ring) in rings.iter_mut().enumerate() {
+            if let Some(along) = other(pile, true, random) {
+                *ring = along;
+            }
+        }
+        let mut opener = Opener::new(self.dual, &rings, self.cells, self.request.bridges);
+        opener.open_all(first(&rings, weights), random);
+        for step in 0..STEPS_A_PILE * self.parts.len() {
+            let Some((pile, beside)) = opener.groups().border(random) else {
+                opener.better(random);
+                return matching::bridge(self.dual, opener.matched(), self.request.bridges);
+            };
+            // A ring along a straight border shows it one side only, others show it more.
+            let ring = if step % 2 == 0 { None } else { other(pile, false, random) };
+            tried.rings += usize::from(ring.is_some());
+            opener.join(pile, beside, ring, random);
+        }
+        None
+    }
+}
+
+/// How many cells apart two cells are.
+fn distance(a: [i32; 2], b: [i32; 2]) -> u32 {
+    a[0].abs_diff(b[0]) + a[1].abs_diff(b[1])
+}
+
+/// The cut edges between parts.
+pub(crate) fn weights(neighbours: &[Vec<usize>], parts: &[Vec<usize>]) -> Weights {
+    let mut part_of = vec![0; neighbours.len()];
+    for (number, part) in parts.iter().enumerate() {
+        for panel in part {
+            part_of[*panel] = number;
+        }
+    }
+    let mut weights = Weights::new(parts.len());
+    for (a, near) in neighbours.iter().enumerate() {
+        for &b in near.iter().filter(|b| a < **b && part_of[a] != part_of[**b]) {
+            weights.add(part_of[a], part_of[b]);
+        }
+    }
+    weights
+}
+
+/// The pile to begin with: one that can't be opened anywhere, else the one with most cut edges.
+fn first(rings: &[Strip], weights: &Weights) -> usize {
+    let edges = |pile: usize| (0..rings.len()).map(|other| weights.of(pile, other)).sum::<usize>();
+    (0..rings.len()).max_by_key(|pile| (!rings[*pile].closed, edges(*pile))).unwrap_or(0)
+}

@@ -1,0 +1,215 @@
+//! Chooses the bridges among the matches: a spanning tree of piles, or as many as can be. Each bridge beyond the spanning
+//! ones closes a loop, so a fold on that loop is broken: bridges less breaks are always K - 1.
+
+use super::{Matched, turning};
+use crate::arcs::Joint;
+use crate::dual::Dual;
+use crate::folding_map::Facing;
+use crate::plan::Side;
+use crate::planner::Bridges;
+use crate::tree_path;
+use std::collections::VecDeque;
+
+/// Times that the tree path is grown anew from its middle.
+const REGROWTHS: usize = 3;
+
+/// Piles joined to one tree path.
+#[derive(Debug, Clone)]
+pub(crate) struct Bridged {
+    /// Panels of every pile from the bottom up.
+    pub(crate) piles: Vec<Vec<usize>>,
+    /// Of every panel how it lies on its cell.
+    pub(crate) facing: Vec<Facing>,
+    /// Of every pile its cell.
+    pub(crate) cells: Vec<[i32; 2]>,
+    /// The bridges.
+    pub(crate) bridges: Vec<Joint>,
+    /// The panels of every broken fold, the lower one first.
+    pub(crate) breaks: Vec<[usize; 2]>,
+}
+
+impl Matched {
+    /// Joined by bridges that are given, with no fold broken.
+    pub(crate) fn with(self, bridges: Vec<Joint>) -> Bridged {
+        let mut facing = self.facing;
+        for (pile, turn) in self.piles.iter().zip(&self.turns) {
+            for panel in pile {
+                facing[*panel] = facing[*panel].turned(*turn);
+            }
+        }
+        Bridged { piles: self.piles, facing, cells: self.cells, bridges, breaks: Vec::new() }
+    }
+}
+
+/// Two neighbours at one height of piles that stand side by side: a bridge, if both piles are turned as it needs there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate {
+    pub(super) height: usize,
+    pub(super) joint: Joint,
+    /// The quarter turns that each pile needs.
+    pub(super) turns: [usize; 2],
+}
+
+/// Joins matched piles; none where they don't hang together.
+pub(crate) fn bridge(dual: &Dual, matched: Matched, wanted: Bridges) -> Option<Bridged> {
+    let candidates = candidates(dual, &matched);
+    let height = matched.piles.first().map_or(0, Vec::len);
+    let turned = match wanted {
+        Bridges::Least => matched.turns.iter().map(|turn| vec![*turn; height]).collect(),
+        Bridges::Most => turning::choose(&candidates, &matched.turns, height),
+    };
+    let fits = |candidate: &&Candidate| {
+        let [a, b] = candidate.joint.piles;
+        [turned[a][candidate.height], turned[b][candidate.height]] == candidate.turns
+    };
+    let fitting: Vec<Candidate> = candidates.iter().filter(fits).copied().collect();
+    let mut facing = matched.facing;
+    for (pile, turns) in matched.piles.iter().zip(&turned) {
+        for (panel, turn) in pile.iter().zip(turns) {
+            facing[*panel] = facing[*panel].turned(*turn);
+        }
+    }
+    let (bridges, breaks) = match wanted {
+        Bridges::Least => (spanning(fitting, matched.piles.len(), height)?, Vec::new()),
+        Bridges::Most => grown(&matched.piles, &turned, &fitting)?,
+    };
+    Some(Bridged { piles: matched.piles, facing, cells: matched.cells, bridges, breaks })
+}
+
+fn candidates(dual: &Dual, matched: &Matched) -> Vec<Candidate> {
+    let mut place = vec![(0, 0); matched.facing.len()];
+    for (pile, panels) in matched.piles.iter().enumerate() {
+        for (height, panel) in panels.iter().enumerate() {
+            place[*panel] = (pile, height);
+        }
+    }
+    let mut candidates = Vec::new();
+    for (pile, panels) in matched.piles.iter().enumerate() {
+        let [x, y] = matched.cells[pile];
+        for (height, &panel) in panels.iter().enumerate() {
+            for edge in 0..4 {
+                let Some(across) = dual.across(panel, edge) else { continue };
+                let (other_pile, other_height) = place[across.panel];
+                if other_pile <= pile || other_height != height {
+                    continue;
+                }
+                let beyond = |side: &Side| {
+                    let [dx, dy] = side.step();
+                    matched.cells[other_pile] == [x + dx, y + dy]
+                };
+                let Some(towards) = Side::ALL.into_iter().find(beyond) else { continue };
+                let sides =
+                    [matched.facing[panel].side(edge), matched.facing[across.panel].side(across.edge)];
+                let joint = Joint {
+                    panels: [panel, across.panel],
+                    edges: [edge, across.edge],
+                    piles: [pile, other_pile],
+                    sides,
+                };
+                let turn = |towards: Side, side: Side| (towards as usize + 4 - side as usize) % 4;
+                let turns = [turn(towards, sides[0]), turn(towards.opposite(), sides[1])];
+                candidates.push(Candidate { height, joint, turns });
+            }
+        }
+    }
+    candidates.sort_by_key(|candidate| (candidate.height, candidate.joint.panels));
+    candidates
+}
+
+/// A spanning tree of the piles, of bridges as near to half height as can be.
+fn spanning(mut fitting: Vec<Candidate>, piles: usize, height: usize) -> Option<Vec<Joint>> {
+    fitting.sort_by_key(|candidate| (2 * candidate.height + 1).abs_diff(height));
+    let mut group: Vec<usize> = (0..piles).collect();
+    let mut bridges = Vec::with_capacity(piles);
+    for candidate in fitting {
+        let [a, b] = candidate.joint.piles.map(|pile| root(&mut group, pile));
+        if a != b {
+            group[a] = b;
+            bridges.push(candidate.joint);
+        }
+    }
+    (bridges.len() + 1 == piles).then_some(bridges)
+}
+
+/// A tree path with all bridges but those that close a loop of bridges alone, grown breadth first so that it is shallow;
+/// with the folds that it leaves out.
+fn grown(
+    piles: &[Vec<usize>],
+    turned: &[Vec<usize>],
+    fitting: &[Candidate],
+) -> Option<(Vec<Joint>, Vec<[usize; 2]>)> {
+    let panels = piles.iter().map(Vec::len).sum();
+    let mut group: Vec<usize> = (0..panels).collect();
+    let mut across = vec![Vec::new(); panels];
+    let mut bridges = Vec::new();
+    for candidate in fitting {
+        let [a, b] = candidate.joint.panels;
+        let (group_a, group_b) = (root(&mut group, a), root(&mut group, b));
+        if group_a != group_b {
+            group[group_a] = group_b;
+            bridges.push(candidate.joint);
+            across[a].push(b);
+            across[b].push(a);
+        }
+    }
+    let mut folds = vec![Vec::new(); panels];
+    for (pile, turns) in piles.iter().zip(turned) {
+        for (pair, turn) in pile.windows(2).zip(turns.windows(2)) {
+            if turn[0] == turn[1] {
+                folds[pair[0]].push(pair[1]);
+                folds[pair[1]].push(pair[0]);
+            }
+        }
+    }
+    let mut start = piles[0][piles[0].len() / 2];
+    let mut joined = Vec::new();
+    for _ in 0..REGROWTHS {
+        joined = grow(start, &across, &folds)?;
+        start = tree_path::centre(&joined).0;
+    }
+    let pairs = piles.iter().flat_map(|pile| pile.windows(2)).map(|pair| [pair[0], pair[1]]);
+    let breaks = pairs.filter(|[a, b]| !joined[*a].contains(b)).collect();
+    Some((bridges, breaks))
+}
+
+/// The tree from one panel: whoever is reached brings all panels along that bridges join it to.
+fn grow(start: usize, across: &[Vec<usize>], folds: &[Vec<usize>]) -> Option<Vec<Vec<usize>>> {
+    let mut joined: Vec<Vec<usize>> = across.to_vec();
+    let mut seen = vec![false; across.len()];
+    seen[start] = true;
+    let mut count = 1;
+    let mut waiting = VecDeque::from([start]);
+    let mut together = vec![start];
+    loop {
+        while let Some(panel) = together.pop() {
+            for &other in &across[panel] {
+                if !std::mem::replace(&mut seen[other], true) {
+                    count += 1;
+                    waiting.push_back(other);
+                    together.push(other);
+                }
+            }
+        }
+        let Some(&panel) = waiting.front() else { break };
+        let Some(&other) = folds[panel].iter().find(|other| !seen[**other]) else {
+            waiting.pop_front();
+            continue;
+        };
+        joined[panel].push(other);
+        joined[other].push(panel);
+        seen[other] = true;
+        count += 1;
+        waiting.push_back(other);
+        together.push(other);
+    }
+    (count == across.len()).then_some(joined)
+}
+
+/// The name of the set that a member is in.
+pub(super) fn root(group: &mut [usize], mut member: usize) -> usize {
+    while group[member] != member {
+        group[member] = group[group[member]];
+        member = group[member];
+    }
+    member
+}

@@ -1,0 +1,45 @@
+//! Which piles hang together by matches.
+
+use super::bridges::root;
+use crate::random::Random;
+use std::collections::BTreeSet;
+
+/// The groups of piles.
+pub(crate) struct Groups {
+    /// Of every pile a name of its group.
+    pub(super) of: Vec<usize>,
+    /// Piles that are neighbours on the grid and share cut edges.
+    pairs: BTreeSet<(usize, usize)>,
+}
+
+impl Groups {
+    /// The groups of so many piles: of neighbours on the grid it is told whether they match.
+    pub(super) fn new(piles: usize, pairs: impl Iterator<Item = ((usize, usize), bool)>) -> Self {
+        let mut group: Vec<usize> = (0..piles).collect();
+        let mut all = BTreeSet::new();
+        for ((a, b), matches) in pairs {
+            all.insert((a, b));
+            if matches {
+                let (a, b) = (root(&mut group, a), root(&mut group, b));
+                group[a] = b;
+            }
+        }
+        Self { of: (0..piles).map(|pile| root(&mut group, pile)).collect(), pairs: all }
+    }
+
+    /// How many groups there are.
+    pub(super) fn count(&self) -> usize {
+        self.of.iter().collect::<BTreeSet<_>>().len()
+    }
+
+    /// Two piles side by side, of different groups; none where all hang together.
+    pub(crate) fn border(&self, random: &mut Random) -> Option<(usize, usize)> {
+        let apart: Vec<(usize, usize)> =
+            self.pairs.iter().filter(|(a, b)| self.of[*a] != self.of[*b]).copied().collect();
+        if apart.is_empty() {
+            return None;
+        }
+        let (a, b) = apart[random.below(apart.len())];
+        Some(if random.below(2) == 0 { (a, b) } else { (b, a) })
+    }
+}

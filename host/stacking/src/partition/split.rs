@@ -1,0 +1,72 @@
+//! K parts of exactly equal size: by halves, then pair by pair once more.
+
+use super::bisect::{bisect, refine};
+use super::{Neighbours, Numbering};
+use crate::random::Random;
+use std::collections::BTreeSet;
+
+/// Splits the members into `count` parts of equal size, each in one piece; none where a cut left none.
+pub(crate) fn split(
+    neighbours: &Neighbours,
+    members: &[usize],
+    count: usize,
+    random: &mut Random,
+) -> Option<Vec<Vec<usize>>> {
+    let mut numbering = Numbering::new(neighbours.len());
+    let mut parts = Vec::with_capacity(count);
+    let mut waiting = vec![(members.to_vec(), count)];
+    while let Some((members, count)) = waiting.pop() {
+        if count == 1 {
+            parts.push(members);
+            continue;
+        }
+        let graph = numbering.within(neighbours, &members);
+        let half = count / 2;
+        let beyond = bisect(&graph, members.len() / count * half, random)?;
+        let of_half = |half: bool| members.iter().zip(&beyond).filter(move |(_, beyond)| **beyond == half);
+        let [first, second] = [false, true].map(|half| of_half(half).map(|(panel, _)| *panel).collect());
+        waiting.push((second, count - half));
+        waiting.push((first, half));
+    }
+    if count > 2 {
+        polish(neighbours, &mut parts, &mut numbering, random);
+    }
+    for part in &mut parts {
+        part.sort_unstable();
+    }
+    Some(parts)
+}
+
+/// Moves the border between every two parts that touch, where that cuts fewer edges.
+fn polish(neighbours: &Neighbours, parts: &mut [Vec<usize>], numbering: &mut Numbering, random: &mut Random) {
+    let mut part_of = vec![usize::MAX; neighbours.len()];
+    for (number, part) in parts.iter().enumerate() {
+        for panel in part {
+            part_of[*panel] = number;
+        }
+    }
+    let touching = |a: usize| neighbours[a].iter().map(move |b| (a, *b));
+    let pairs: BTreeSet<(usize, usize)> = (0..neighbours.len())
+        .flat_map(touching)
+        .map(|(a, b)| (part_of[a], part_of[b]))
+        .filter(|(a, b)| a < b && *b != usize::MAX)
+        .collect();
+    for (a, b) in pairs {
+        let members: Vec<usize> = parts[a].iter().chain(&parts[b]).copied().collect();
+        let graph = numbering.within(neighbours, &members);
+        let first = parts[a].len();
+        let mut beyond: Vec<bool> = (0..members.len()).map(|node| node >= first).collect();
+        let cut = |beyond: &[bool]| {
+            let crossing =
+                |node: usize| graph[node].iter().filter(move |other| beyond[**other] != beyond[node]);
+            (0..graph.len()).map(|node| crossing(node).count()).sum::<usize>() / 2
+        };
+        let before = cut(&beyond);
+        if refine(&graph, first, &mut beyond, random).is_some_and(|after| after < before) {
+            for (number, half) in [(a, false), (b, true)] {
+                let of_half = members.iter().zip(&beyond).filter(|(_, beyond)| **beyond == half);
+                parts[number] = of_half.map(|(panel, _)| *panel).collect();
+            }
+        }
+    }
+}
