@@ -8,6 +8,7 @@
 //!
 //! A path is a cycle through one more node, the apex, that neighbours every panel: so one method finds both.
 
+mod bumps;
 mod cover;
 mod cycles;
 mod exchanges;
@@ -15,6 +16,7 @@ mod faces;
 mod graph;
 mod obstacles;
 mod segments;
+mod trails;
 mod two_factor;
 
 use crate::random::Random;
@@ -79,27 +81,45 @@ pub(crate) fn find(neighbours: &[Vec<usize>], seed: u64) -> Result<Strip, NoStri
         return Ok(Strip { order: (0..panels).collect(), closed: false });
     }
     let cycle_possible = obstacles::look_for(neighbours)?;
-    let mut fewest = usize::MAX;
-    let mut attempts = 0;
+    let mut search = Search { seed, attempts: 0, fewest: usize::MAX };
     for with_apex in [false, true] {
         if !with_apex && !cycle_possible {
             continue;
         }
-        for attempt in 0..ATTEMPTS {
-            attempts += 1;
-            let graph = Graph::new(neighbours, with_apex);
-            let mut random = Random::new(seed, 2 * attempt + u64::from(with_apex));
-            let Some(mut cover) = two_factor::find(&graph, &mut random) else { continue };
-            faces::merge(&graph, &mut cover);
-            let pieces = exchanges::merge(&graph, &mut cover, &mut random);
-            if pieces == 1 {
-                return Ok(Strip { order: cover.order(graph.apex()), closed: !with_apex });
-            }
-            fewest = fewest.min(pieces);
+        if let Some(flat) = bumps::flatten(neighbours)
+            && let Some(order) = search.run(&flat.neighbours, with_apex)
+        {
+            return Ok(Strip { order: flat.raised(&order, !with_apex), closed: !with_apex });
+        }
+        if let Some(order) = search.run(neighbours, with_apex) {
+            return Ok(Strip { order, closed: !with_apex });
         }
     }
-    let pieces = if fewest == usize::MAX { 0 } else { fewest };
-    Err(NoStrip::NotFound { panels, attempts, pieces })
+    let pieces = if search.fewest == usize::MAX { 0 } else { search.fewest };
+    Err(NoStrip::NotFound { panels, attempts: search.attempts, pieces })
+}
+
+/// The search, and what it came to so far.
+struct Search {
+    seed: u64,
+    attempts: u64,
+    fewest: usize,
+}
+
+impl Search {
+    /// Looks for a cycle through all panels, or with an apex for a path.
+    fn run(&mut self, neighbours: &[Vec<usize>], with_apex: bool) -> Option<Vec<usize>> {
+        (0..ATTEMPTS).find_map(|attempt| {
+            self.attempts += 1;
+            let graph = Graph::new(neighbours, with_apex);
+            let mut random = Random::new(self.seed, 2 * attempt + u64::from(with_apex));
+            let mut cover = two_factor::find(&graph, &mut random)?;
+            faces::merge(&graph, &mut cover);
+            let pieces = exchanges::merge(&graph, &mut cover, &mut random);
+            self.fewest = self.fewest.min(pieces);
+            (pieces == 1).then(|| cover.order(graph.apex()))
+        })
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,158 @@
+//! Single voxels that stick out of a surface, or are missing in it, are five panels that a strip passes as if they were one: in
+//! at any side, out at any other. So each is made one panel before the search, again and again (a rod shrinks to a cube),
+//! and five afterwards. On a flat terrace a search from nearby can't do as much: around the bump it is coloured like a chess
+//! board, and a strip that has passed by the bump would have to visit one more panel of one colour than of the other.
+
+/// A panel with four sides around it, and the panel beyond each side where there is one.
+struct Bump {
+    top: usize,
+    sides: [usize; 4],
+    beyond: [Option<usize>; 4],
+}
+
+/// A graph with bumps made panels, and the way back.
+pub(super) struct Flattened {
+    /// The neighbours of every panel that is left, by new numbers.
+    pub(super) neighbours: Vec<Vec<usize>>,
+    /// The old number of every panel that is left.
+    left: Vec<usize>,
+    /// The bumps in the order in which they went; each has become its top.
+    bumps: Vec<Bump>,
+    /// The number of panels before.
+    panels: usize,
+}
+
+/// Makes panels of all bumps; none when there is no bump.
+pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
+    let mut waiting: Vec<usize> = (0..neighbours.len()).rev().filter(|top| is_top(neighbours, *top)).collect();
+    if waiting.is_empty() {
+        return None;
+    }
+    let mut near = neighbours.to_vec();
+    let mut gone = vec![false; near.len()];
+    let mut bumps = Vec::new();
+    while let Some(top) = waiting.pop() {
+        let Some(bump) = Some(top).filter(|top| !gone[*top]).and_then(|top| bump(&near, top)) else { continue };
+        near[top].clear();
+        for (side, beyond) in bump.sides.into_iter().zip(bump.beyond) {
+            gone[side] = true;
+            near[side].clear();
+            if let Some(beyond) = beyond {
+                near[top].push(beyond);
+                for place in near[beyond].iter_mut().filter(|place| **place == side) {
+                    *place = top;
+                }
+            }
+        }
+        // What stands beside may be the top of a bump now, and so may this.
+        waiting.extend(near[top].iter().chain([&top]));
+        bumps.push(bump);
+    }
+    let left: Vec<usize> = (0..near.len()).filter(|panel| !gone[*panel]).collect();
+    let mut number = vec![0; near.len()];
+    for (new, old) in left.iter().enumerate() {
+        number[*old] = new;
+    }
+    let kept = left.iter().map(|old| near[*old].iter().map(|near| number[*near]).collect()).collect();
+    Some(Flattened { neighbours: kept, left, bumps, panels: near.len() })
+}
+
+impl Flattened {
+    /// A strip of the graph as it was, of a strip of this one.
+    pub(super) fn raised(&self, order: &[usize], closed: bool) -> Vec<usize> {
+        // The strip as a chain, closed as a ring.
+        const END: usize = usize::MAX;
+        let (mut next, mut before) = (vec![END; self.panels], vec![END; self.panels]);
+        let mut link = |u: usize, v: usize| {
+            if u != END {
+                next[u] = v;
+            }
+            if v != END {
+                before[v] = u;
+            }
+        };
+        for pair in order.windows(2) {
+            link(self.left[pair[0]], self.left[pair[1]]);
+        }
+        let (Some(first), Some(last)) = (order.first(), order.last()) else { return Vec::new() };
+        let mut first = self.left[*first];
+        if closed {
+            link(self.left[*last], first);
+        }
+        for bump in self.bumps.iter().rev() {
+            let (entry, exit) = (before[bump.top], next[bump.top]);
+            let passage = bump.passage(Some(entry).filter(|e| *e != END), Some(exit).filter(|e| *e != END));
+            if first == bump.top {
+                first = passage[0];
+            }
+            let mut link = |u: usize, v: usize| {
+                if u != END {
+                    next[u] = v;
+                }
+                if v != END {
+                    before[v] = u;
+                }
+            };
+            link(entry, passage[0]);
+            for pair in passage.windows(2) {
+                link(pair[0], pair[1]);
+            }
+            link(passage[4], exit);
+        }
+        let mut row = Vec::with_capacity(self.panels);
+        let mut here = first;
+        while here != END && row.len() < self.panels {
+            row.push(here);
+            here = next[here];
+        }
+        row
+    }
+}
+
+impl Bump {
+    /// The five panels in the order of a strip that comes from one panel beyond and leaves to another, or ends here.
+    fn passage(&self, entry: Option<usize>, exit: Option<usize>) -> [usize; 5] {
+        let side_of = |panel: Option<usize>| {
+            panel.and_then(|panel| self.beyond.iter().position(|beyond| *beyond == Some(panel)))
+        };
+        let side = |turns: usize| self.sides[turns % 4];
+        match (side_of(entry), side_of(exit)) {
+            (Some(a), Some(b)) if (a + 1) % 4 == b => [side(a), side(a + 3), side(a + 2), self.top, side(b)],
+            (Some(a), Some(b)) if (a + 3) % 4 == b => [side(a), side(a + 1), side(a + 2), self.top, side(b)],
+            (Some(a), Some(b)) => [side(a), side(a + 1), self.top, side(a + 3), side(b)],
+            (Some(a), None) => [side(a), side(a + 1), side(a + 2), side(a + 3), self.top],
+            (None, Some(b)) => [self.top, side(b + 3), side(b + 2), side(b + 1), side(b)],
+            (None, None) => [self.top, side(0), side(1), side(2), side(3)],
+        }
+    }
+}
+
+/// Whether a panel may be the top of a bump: four neighbours, each with two of the others.
+fn is_top(near: &[Vec<usize>], top: usize) -> bool {
+    let sides = &near[top];
+    sides.len() == 4 && near[sides[0]].iter().filter(|other| sides.contains(other)).count() == 2 && bump(near, top).is_some()
+}
+
+/// The bump of which a panel is the top.
+fn bump(near: &[Vec<usize>], top: usize) -> Option<Bump> {
+    let Ok([a, b, c, d]) = <[usize; 4]>::try_from(near[top].as_slice()) else { return None };
+    let joins = |u: usize, v: usize| near[u].contains(&v);
+    // In the order in which they stand around the top.
+    let sides = match (joins(a, b), joins(a, c), joins(a, d)) {
+        (true, false, true) => [a, b, c, d],
+        (true, true, false) => [a, b, d, c],
+        (false, true, true) => [a, c, b, d],
+        _ => return None,
+    };
+    let mut beyond = [None; 4];
+    for turn in 0..4 {
+        let (side, next, before) = (sides[turn], sides[(turn + 1) % 4], sides[(turn + 3) % 4]);
+        if !joins(side, next) || !joins(side, before) || joins(side, sides[(turn + 2) % 4]) || near[side].len() > 4 {
+            return None;
+        }
+        beyond[turn] = near[side].iter().copied().find(|other| ![top, next, before].contains(other));
+    }
+    let distinct = (0..4).all(|i| (0..i).all(|j| beyond[i].is_none() || beyond[i] != beyond[j]));
+    // A strip comes in at one side and leaves at another.
+    (distinct && beyond.iter().flatten().count() >= 2).then_some(Bump { top, sides, beyond })
+}
