@@ -24,7 +24,8 @@ pub(super) struct Flattened {
 
 /// Makes panels of all bumps; none when there is no bump.
 pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
-    let mut waiting: Vec<usize> = (0..neighbours.len()).rev().filter(|top| is_top(neighbours, *top)).collect();
+    let mut waiting: Vec<usize> =
+        (0..neighbours.len()).rev().filter(|top| bump(neighbours, *top).is_some()).collect();
     if waiting.is_empty() {
         return None;
     }
@@ -32,7 +33,9 @@ pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
     let mut gone = vec![false; near.len()];
     let mut bumps = Vec::new();
     while let Some(top) = waiting.pop() {
-        let Some(bump) = Some(top).filter(|top| !gone[*top]).and_then(|top| bump(&near, top)) else { continue };
+        let Some(bump) = Some(top).filter(|top| !gone[*top]).and_then(|top| bump(&near, top)) else {
+            continue;
+        };
         near[top].clear();
         for (side, beyond) in bump.sides.into_iter().zip(bump.beyond) {
             gone[side] = true;
@@ -60,52 +63,46 @@ pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
 impl Flattened {
     /// A strip of the graph as it was, of a strip of this one.
     pub(super) fn raised(&self, order: &[usize], closed: bool) -> Vec<usize> {
-        // The strip as a chain, closed as a ring.
-        const END: usize = usize::MAX;
-        let (mut next, mut before) = (vec![END; self.panels], vec![END; self.panels]);
-        let mut link = |u: usize, v: usize| {
-            if u != END {
-                next[u] = v;
-            }
-            if v != END {
-                before[v] = u;
-            }
-        };
-        for pair in order.windows(2) {
-            link(self.left[pair[0]], self.left[pair[1]]);
-        }
         let (Some(first), Some(last)) = (order.first(), order.last()) else { return Vec::new() };
+        let mut chain = Chain { next: vec![None; self.panels], before: vec![None; self.panels] };
+        for pair in order.windows(2) {
+            chain.link(Some(self.left[pair[0]]), Some(self.left[pair[1]]));
+        }
         let mut first = self.left[*first];
         if closed {
-            link(self.left[*last], first);
+            chain.link(Some(self.left[*last]), Some(first));
         }
         for bump in self.bumps.iter().rev() {
-            let (entry, exit) = (before[bump.top], next[bump.top]);
-            let passage = bump.passage(Some(entry).filter(|e| *e != END), Some(exit).filter(|e| *e != END));
+            let (entry, exit) = (chain.before[bump.top], chain.next[bump.top]);
+            let passage = bump.passage(entry, exit);
             if first == bump.top {
                 first = passage[0];
             }
-            let mut link = |u: usize, v: usize| {
-                if u != END {
-                    next[u] = v;
-                }
-                if v != END {
-                    before[v] = u;
-                }
-            };
-            link(entry, passage[0]);
+            chain.link(entry, Some(passage[0]));
             for pair in passage.windows(2) {
-                link(pair[0], pair[1]);
+                chain.link(Some(pair[0]), Some(pair[1]));
             }
-            link(passage[4], exit);
+            chain.link(Some(passage[4]), exit);
         }
-        let mut row = Vec::with_capacity(self.panels);
-        let mut here = first;
-        while here != END && row.len() < self.panels {
-            row.push(here);
-            here = next[here];
+        std::iter::successors(Some(first), |here| chain.next[*here]).take(self.panels).collect()
+    }
+}
+
+/// Panels in a row or a ring, each with the one before and the next.
+struct Chain {
+    next: Vec<Option<usize>>,
+    before: Vec<Option<usize>>,
+}
+
+impl Chain {
+    /// One after the other; none stands for an end.
+    fn link(&mut self, u: Option<usize>, v: Option<usize>) {
+        if let Some(u) = u {
+            self.next[u] = v;
         }
-        row
+        if let Some(v) = v {
+            self.before[v] = u;
+        }
     }
 }
 
@@ -127,12 +124,6 @@ impl Bump {
     }
 }
 
-/// Whether a panel may be the top of a bump: four neighbours, each with two of the others.
-fn is_top(near: &[Vec<usize>], top: usize) -> bool {
-    let sides = &near[top];
-    sides.len() == 4 && near[sides[0]].iter().filter(|other| sides.contains(other)).count() == 2 && bump(near, top).is_some()
-}
-
 /// The bump of which a panel is the top.
 fn bump(near: &[Vec<usize>], top: usize) -> Option<Bump> {
     let Ok([a, b, c, d]) = <[usize; 4]>::try_from(near[top].as_slice()) else { return None };
@@ -147,7 +138,11 @@ fn bump(near: &[Vec<usize>], top: usize) -> Option<Bump> {
     let mut beyond = [None; 4];
     for turn in 0..4 {
         let (side, next, before) = (sides[turn], sides[(turn + 1) % 4], sides[(turn + 3) % 4]);
-        if !joins(side, next) || !joins(side, before) || joins(side, sides[(turn + 2) % 4]) || near[side].len() > 4 {
+        if !joins(side, next)
+            || !joins(side, before)
+            || joins(side, sides[(turn + 2) % 4])
+            || near[side].len() > 4
+        {
             return None;
         }
         beyond[turn] = near[side].iter().copied().find(|other| ![top, next, before].contains(other));
@@ -155,4 +150,73 @@ fn bump(near: &[Vec<usize>], top: usize) -> Option<Bump> {
     let distinct = (0..4).all(|i| (0..i).all(|j| beyond[i].is_none() || beyond[i] != beyond[j]));
     // A strip comes in at one side and leaves at another.
     (distinct && beyond.iter().flatten().count() >= 2).then_some(Bump { top, sides, beyond })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{assert_strip, sheet};
+    use super::*;
+    use crate::hamiltonian::find;
+    use crate::random::Random;
+
+    /// Puts a voxel on a panel.
+    fn raise(neighbours: &mut Vec<Vec<usize>>, panel: usize) {
+        let beyond = std::mem::take(&mut neighbours[panel]);
+        let first = neighbours.len();
+        for (turn, out) in beyond.iter().enumerate() {
+            let sides = beyond.len();
+            neighbours.push(vec![
+                panel,
+                *out,
+                first + (turn + 1) % sides,
+                first + (turn + sides - 1) % sides,
+            ]);
+            neighbours[panel].push(first + turn);
+            for place in neighbours[*out].iter_mut().filter(|place| **place == panel) {
+                *place = first + turn;
+            }
+        }
+    }
+
+    #[test]
+    fn a_terrace_full_of_bumps_and_towers_has_a_cycle() {
+        let (width, depth) = (60, 50);
+        let mut neighbours = sheet(width, depth);
+        let mut random = Random::new(3, 0);
+        for _ in 0..400 {
+            let panel = random.below(neighbours.len());
+            if neighbours[panel].len() == 4 {
+                raise(&mut neighbours, panel);
+            }
+        }
+        let strip = find(&neighbours, 1).unwrap();
+        assert!(strip.closed);
+        assert_strip(&neighbours, &strip);
+    }
+
+    #[test]
+    fn bumps_become_panels_and_a_tower_goes_storey_by_storey() {
+        let mut neighbours = sheet(5, 5);
+        for _ in 0..3 {
+            // The top keeps its number, so this is a tower of three.
+            raise(&mut neighbours, 12);
+        }
+        let flat = flatten(&neighbours).unwrap();
+        assert_eq!(flat.neighbours.len(), 25);
+        assert_eq!(flat.bumps.len(), 3);
+        assert!(flatten(&sheet(5, 5)).is_none());
+    }
+
+    #[test]
+    fn a_path_may_begin_or_end_in_a_bump() {
+        let mut neighbours = sheet(3, 3);
+        raise(&mut neighbours, 4);
+        let flat = flatten(&neighbours).unwrap();
+        let order = [4, 1, 0, 3, 6, 7, 8, 5, 2];
+        let row = flat.raised(&order, false);
+        assert_strip(&neighbours, &super::super::Strip { order: row, closed: false });
+        let back: Vec<usize> = order.into_iter().rev().collect();
+        let row = flat.raised(&back, false);
+        assert_strip(&neighbours, &super::super::Strip { order: row, closed: false });
+    }
 }

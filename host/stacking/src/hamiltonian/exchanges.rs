@@ -1,6 +1,6 @@
 //! Joins the cycles that are left: alternating closed walks from the shortest cycles, removing two to six edges and adding
 //! as many, taken when the number of cycles falls. Where none helps, a walk that changes nothing in the number is taken
-//! nearby, and the search goes on from there.
+//! nearby, or a detour of any length out of the cycle, and the search goes on from there.
 
 use super::cover::Cover;
 use super::cycles::Cycles;
@@ -17,6 +17,10 @@ const STARTS: usize = 24;
 const STEPS: usize = 6000;
 /// How far from the cycle in question a kick may begin, in panels.
 const KICK_DISTANCE: usize = 8;
+/// Panels that the first detour may look at; each later one that is needed looks at four times as many.
+const NEAR: usize = 64;
+/// Panels that all detours together may look at, in units of all panels.
+const EFFORT: usize = 100;
 /// Kicks without a fall in the number of cycles before the search gives up.
 const KICKS: usize = 400;
 
@@ -30,7 +34,7 @@ pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -
     let mut queue: BTreeSet<(usize, usize, usize)> =
         cycles.by_length().map(|(length, name)| (0, length, name)).collect();
     let (mut fewest, mut kicks) = (cycles.count(), 0);
-    while cycles.count() > 1 && kicks < KICKS {
+    while cycles.count() > 1 && kicks < KICKS && trails.steps() < EFFORT * graph.nodes() {
         let Some((resisted, length, name)) = queue.pop_first() else { break };
         let Some((_, member)) = cycles.length_and_member(name) else { continue };
         queue.insert((resisted + 1, length, name));
@@ -46,7 +50,8 @@ pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -
         let exchange = joined.or_else(|| {
             kicks += 1;
             if resisted % 2 == 1 {
-                detour(graph, cover, &mut trails, *starts.first()?, random)
+                let reach = NEAR << (2 * resisted.min(8));
+                detour(graph, cover, &mut trails, *starts.first()?, reach, random)
             } else {
                 let start = stroll(graph, member, random);
                 Walk::new(graph, cover, &cycles, 2 + random.below(3)).level(start, random)
@@ -67,12 +72,13 @@ pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -
     cycles.count()
 }
 
-/// An exchange that takes an edge out of a node's cycle, whatever that does elsewhere.
+/// An exchange that takes an edge out of a node's cycle, whatever that does elsewhere; sought among so many panels.
 fn detour(
     graph: &Graph<'_>,
     cover: &mut Cover,
     trails: &mut Trails,
     node: usize,
+    reach: usize,
     random: &mut Random,
 ) -> Option<(Edges, Edges)> {
     let near: Vec<usize> = graph.neighbours(node).iter().copied().filter(|n| !cover.has(node, *n)).collect();
@@ -87,7 +93,7 @@ fn detour(
     }
     let (cut, joined) = ([(node, from), (other, to)], [(node, other)]);
     cover.exchange(&cut, &joined);
-    let trail = trails.from(graph, cover, from, Some(joined[0]), random);
+    let trail = trails.from(graph, cover, from, Some(joined[0]), reach, random);
     cover.exchange(&joined, &cut);
     let (mut removed, mut added) = trail?;
     removed.extend(cut);

@@ -1,9 +1,11 @@
 //! A strip through all panels: a Hamiltonian cycle of the dual graph, or a path where no cycle is found.
 //!
 //! ```text
+//! bumps:      single voxels that stick out      -> one panel each, five again at the end
 //! two_factor: every panel gets two neighbours   -> many small cycles
 //! faces:      exchanges around lattice vertices -> few cycles
 //! exchanges:  longer alternating walks, locally -> one cycle
+//! trails:     alternating walks of any length, where none nearby helps
 //! ```
 //!
 //! A path is a cycle through one more node, the apex, that neighbours every panel: so one method finds both.
@@ -145,7 +147,7 @@ mod tests {
         neighbours
     }
 
-    fn assert_strip(neighbours: &[Vec<usize>], strip: &Strip) {
+    pub(super) fn assert_strip(neighbours: &[Vec<usize>], strip: &Strip) {
         let mut sorted = strip.order.clone();
         sorted.sort_unstable();
         assert_eq!(sorted, (0..neighbours.len()).collect::<Vec<_>>());

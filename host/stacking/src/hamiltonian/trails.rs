@@ -20,18 +20,28 @@ pub(super) struct Trails {
     /// For both states of every node the node that it was reached from, and the round of the search that did.
     reached: [Vec<(u32, u32)>; 2],
     round: u32,
+    /// Nodes looked at, by all searches so far.
+    steps: usize,
 }
 
 impl Trails {
     pub(super) fn new(nodes: usize) -> Self {
-        Self { reached: [vec![(0, 0); nodes], vec![(0, 0); nodes]], round: 0 }
+        Self { reached: [vec![(0, 0); nodes], vec![(0, 0); nodes]], round: 0, steps: 0 }
+    }
+
+    /// Nodes looked at, by all searches so far.
+    pub(super) fn steps(&self) -> usize {
+        self.steps
     }
 
     fn mark(&mut self, state: Next, node: usize, from: usize) -> bool {
         let place = &mut self.reached[state as usize][node];
         let fresh = place.1 != self.round;
         if fresh {
-            #[expect(clippy::cast_possible_truncation, reason = "surfaces of 2^32 panels don't fit in memory")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "surfaces of 2^32 panels don't fit in memory"
+            )]
             let from = from as u32;
             *place = (from, self.round);
         }
@@ -39,19 +49,25 @@ impl Trails {
     }
 
     /// The edges to remove and to add, so that `start` gets one more mate and nobody but the trail's end does. One edge may
-    /// be kept from being removed. None where no trail was found.
+    /// be kept from being removed. None where no trail was found among the first so many nodes.
     pub(super) fn from(
         &mut self,
         graph: &Graph<'_>,
         cover: &Cover,
         start: usize,
         kept: Option<Edge>,
+        reach: usize,
         random: &mut Random,
     ) -> Option<(Vec<Edge>, Vec<Edge>)> {
         self.round += 1;
         self.mark(Next::Adds, start, start);
         let mut queue = VecDeque::from([(start, Next::Adds)]);
+        let end = self.steps.saturating_add(reach);
         while let Some((node, next)) = queue.pop_front() {
+            if self.steps == end {
+                return None;
+            }
+            self.steps += 1;
             match next {
                 Next::Adds => {
                     let near = graph.neighbours(node);

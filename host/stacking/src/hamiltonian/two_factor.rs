@@ -16,7 +16,7 @@ pub(super) fn find(graph: &Graph<'_>, random: &mut Random) -> Option<Cover> {
     for node in 0..graph.panels() {
         let mut tries = 0;
         while cover.lacks(node) > 0 {
-            if let Some((removed, added)) = trails.from(graph, &cover, node, None, random) {
+            if let Some((removed, added)) = trails.from(graph, &cover, node, None, usize::MAX, random) {
                 cover.exchange(&removed, &added);
             } else {
                 tries += 1;
