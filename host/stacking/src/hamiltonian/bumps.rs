@@ -3,6 +3,8 @@
 //! and five afterwards. On a flat terrace a search from nearby can't do as much: around the bump it is coloured like a chess
 //! board, and a strip that has passed by the bump would have to visit one more panel of one colour than of the other.
 
+use super::Strip;
+
 /// A panel with four sides around it, and the panel beyond each side where there is one.
 struct Bump {
     top: usize,
@@ -62,14 +64,15 @@ pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
 
 impl Flattened {
     /// A strip of the graph as it was, of a strip of this one.
-    pub(super) fn raised(&self, order: &[usize], closed: bool) -> Vec<usize> {
-        let (Some(first), Some(last)) = (order.first(), order.last()) else { return Vec::new() };
+    pub(super) fn raised(&self, strip: &Strip) -> Strip {
+        let Strip { order, closed } = strip;
+        let (Some(first), Some(last)) = (order.first(), order.last()) else { return strip.clone() };
         let mut chain = Chain { next: vec![None; self.panels], before: vec![None; self.panels] };
         for pair in order.windows(2) {
             chain.link(Some(self.left[pair[0]]), Some(self.left[pair[1]]));
         }
         let mut first = self.left[*first];
-        if closed {
+        if *closed {
             chain.link(Some(self.left[*last]), Some(first));
         }
         for bump in self.bumps.iter().rev() {
@@ -84,7 +87,8 @@ impl Flattened {
             }
             chain.link(Some(passage[4]), exit);
         }
-        std::iter::successors(Some(first), |here| chain.next[*here]).take(self.panels).collect()
+        let order = std::iter::successors(Some(first), |here| chain.next[*here]).take(self.panels).collect();
+        Strip { order, closed: *closed }
     }
 }
 
@@ -213,10 +217,8 @@ mod tests {
         raise(&mut neighbours, 4);
         let flat = flatten(&neighbours).unwrap();
         let order = [4, 1, 0, 3, 6, 7, 8, 5, 2];
-        let row = flat.raised(&order, false);
-        assert_strip(&neighbours, &super::super::Strip { order: row, closed: false });
+        assert_strip(&neighbours, &flat.raised(&Strip { order: order.to_vec(), closed: false }));
         let back: Vec<usize> = order.into_iter().rev().collect();
-        let row = flat.raised(&back, false);
-        assert_strip(&neighbours, &super::super::Strip { order: row, closed: false });
+        assert_strip(&neighbours, &flat.raised(&Strip { order: back, closed: false }));
     }
 }

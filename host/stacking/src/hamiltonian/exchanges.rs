@@ -21,20 +21,18 @@ const KICK_DISTANCE: usize = 8;
 const NEAR: usize = 64;
 /// Panels that all detours together may look at, in units of all panels.
 const EFFORT: usize = 100;
-/// Kicks without a fall in the number of cycles before the search gives up.
-const KICKS: usize = 400;
 
 type Edges = Vec<(usize, usize)>;
 
-/// Joins cycles as far as possible and returns how many are left.
-pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, random: &mut Random) -> usize {
+/// Joins cycles as far as possible and returns how many are left. Gives up after so many kicks without a fall in their number.
+pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, most_kicks: usize, random: &mut Random) -> usize {
     let mut cycles = Cycles::of(cover);
     let mut trails = Trails::new(graph.nodes());
     // Cycles by how often they resisted, then by length; names of cycles that are gone are passed over.
     let mut queue: BTreeSet<(usize, usize, usize)> =
         cycles.by_length().map(|(length, name)| (0, length, name)).collect();
     let (mut fewest, mut kicks) = (cycles.count(), 0);
-    while cycles.count() > 1 && kicks < KICKS && trails.steps() < EFFORT * graph.nodes() {
+    while cycles.count() > 1 && kicks < most_kicks && trails.steps() < EFFORT * graph.nodes() {
         let Some((resisted, length, name)) = queue.pop_first() else { break };
         let Some((_, member)) = cycles.length_and_member(name) else { continue };
         queue.insert((resisted + 1, length, name));

@@ -26,6 +26,8 @@ use graph::Graph;
 
 /// How many seeds each search gets.
 const ATTEMPTS: u64 = 6;
+/// Kicks without success before an attempt gives up.
+const KICKS: usize = 400;
 
 /// All panels in a row, each the neighbour of the next.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -83,44 +85,37 @@ pub(crate) fn find(neighbours: &[Vec<usize>], seed: u64) -> Result<Strip, NoStri
         return Ok(Strip { order: (0..panels).collect(), closed: false });
     }
     let cycle_possible = obstacles::look_for(neighbours)?;
-    let mut search = Search { seed, attempts: 0, fewest: usize::MAX };
+    let flat = bumps::flatten(neighbours);
+    let mut fewest = usize::MAX;
+    let mut attempts = 0;
     for with_apex in [false, true] {
         if !with_apex && !cycle_possible {
             continue;
         }
-        if let Some(flat) = bumps::flatten(neighbours)
-            && let Some(order) = search.run(&flat.neighbours, with_apex)
-        {
-            return Ok(Strip { order: flat.raised(&order, !with_apex), closed: !with_apex });
-        }
-        if let Some(order) = search.run(neighbours, with_apex) {
-            return Ok(Strip { order, closed: !with_apex });
+        let whole = Graph::new(neighbours, with_apex);
+        let without_bumps = flat.as_ref().map(|flat| Graph::new(&flat.neighbours, with_apex));
+        for (graph, flat) in without_bumps.iter().zip([flat.as_ref()]).chain([(&whole, None)]) {
+            for attempt in 0..ATTEMPTS {
+                attempts += 1;
+                let mut random = Random::new(seed, 2 * attempt + u64::from(with_apex));
+                match search(graph, KICKS, &mut random) {
+                    Ok(strip) => return Ok(if let Some(flat) = flat { flat.raised(&strip) } else { strip }),
+                    Err(pieces) => fewest = fewest.min(pieces),
+                }
+            }
         }
     }
-    let pieces = if search.fewest == usize::MAX { 0 } else { search.fewest };
-    Err(NoStrip::NotFound { panels, attempts: search.attempts, pieces })
+    let pieces = if fewest == usize::MAX { 0 } else { fewest };
+    Err(NoStrip::NotFound { panels, attempts, pieces })
 }
 
-/// The search, and what it came to so far.
-struct Search {
-    seed: u64,
-    attempts: u64,
-    fewest: usize,
-}
-
-impl Search {
-    /// Looks for a cycle through all panels, or with an apex for a path.
-    fn run(&mut self, neighbours: &[Vec<usize>], with_apex: bool) -> Option<Vec<usize>> {
-        (0..ATTEMPTS).find_map(|attempt| {
-            self.attempts += 1;
-            let graph = Graph::new(neighbours, with_apex);
-            let mut random = Random::new(self.seed, 2 * attempt + u64::from(with_apex));
-            let mut cover = two_factor::find(&graph, &mut random)?;
-            faces::merge(&graph, &mut cover);
-            let pieces = exchanges::merge(&graph, &mut cover, &mut random);
-            self.fewest = self.fewest.min(pieces);
-            (pieces == 1).then(|| cover.order(graph.apex()))
-        })
+/// One attempt; where it fails it says in how many pieces the best cover was.
+fn search(graph: &Graph<'_>, kicks: usize, random: &mut Random) -> Result<Strip, usize> {
+    let mut cover = two_factor::find(graph, random).ok_or(usize::MAX)?;
+    faces::merge(graph, &mut cover);
+    match exchanges::merge(graph, &mut cover, kicks, random) {
+        1 => Ok(Strip { order: cover.order(graph.apex()), closed: graph.apex().is_none() }),
+        pieces => Err(pieces),
     }
 }
 
