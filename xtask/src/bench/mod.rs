@@ -1,0 +1,6 @@
+//! `cargo xtask bench NAME`: measured tables. Not part of the tests, and nothing is written but to `target/`.
+
+mod blob;
+mod measure;
+mod peers;
+pub(crate) mod stacking;
