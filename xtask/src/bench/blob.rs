@@ -1,5 +1,5 @@
-//! A solid of any size with an exact number of panels: overlapping ellipsoids, and single voxels on its flat terraces for
-//! the panels that are missing. Those bumps are the hard places for a strip.
+//! A solid of any size with an exact number of panels: overlapping ellipsoids, and single voxels on its flat terraces and in
+//! its angles for the panels that are missing. The bumps on terraces are the hard places for a strip.
 
 use anyhow::{Result, bail};
 use std::fmt::Write;
@@ -36,11 +36,16 @@ pub(super) fn voxel_text(panels: usize) -> Result<String> {
     for _ in 0..TRIES {
         let mut solid = Solid::of(size);
         let found = solid.panels();
-        if found <= panels && (panels - found).is_multiple_of(4) && solid.add_bumps((panels - found) / 4) {
-            return Ok(solid.text());
+        if found <= panels && (panels - found).is_multiple_of(2) {
+            // A bump is four panels more, a ledge two.
+            let left = panels - found - 4 * solid.add_bumps((panels - found) / 4);
+            if solid.add_ledges(left / 2) {
+                return Ok(solid.text());
+            }
         }
         // Straight to the size that should do while the number is far off, then on in small steps.
         let ratio = panels as f64 / found as f64;
+
         size *= if (0.98..1.0).contains(&(1.0 / ratio)) { 0.9995 } else { ratio.sqrt() * 0.997 };
     }
     bail!("found no solid with {panels} panels in {TRIES} tries")
@@ -76,28 +81,46 @@ impl Solid {
         steps.into_iter().map(faces).sum()
     }
 
-    /// Puts single voxels on flat places that look up, each four panels more, apart from one another.
-    fn add_bumps(&mut self, bumps: usize) -> bool {
+    /// Puts single voxels into the angles of floors and walls, and says whether there was room for so many.
+    fn add_ledges(&mut self, mut ledges: usize) -> bool {
+        let steps = [1, self.sides[0], self.sides[0] * self.sides[1]];
+        let margin = MARGIN * steps[2];
+        for at in margin..self.voxels.len() - margin {
+            if ledges == 0 {
+                break;
+            }
+            let voxels = &self.voxels;
+            let axes = steps.map(|step| usize::from(voxels[at - step]) + usize::from(voxels[at + step]));
+            if !voxels[at] && axes.iter().sum::<usize>() == 2 && axes.iter().all(|solid| *solid < 2) {
+                self.voxels[at] = true;
+                ledges -= 1;
+            }
+        }
+        ledges == 0
+    }
+
+    /// Puts single voxels on flat places that look up, apart from one another, and says how many.
+    fn add_bumps(&mut self, most: usize) -> usize {
         let [width, depth, height] = self.sides;
         let layer = width * depth;
-        let mut left = bumps;
+        let mut bumps = 0;
         for z in 1..height - 1 {
             for y in (2..depth - 2).step_by(4) {
                 for x in (2..width - 2).step_by(4) {
-                    if left == 0 {
-                        return true;
+                    if bumps == most {
+                        return bumps;
                     }
                     let at = (z * depth + y) * width + x;
                     let around = || (0..9).map(|n| at + (n / 3) * width + n % 3 - width - 1);
                     if around().all(|i| self.voxels[i - layer] && !self.voxels[i] && !self.voxels[i + layer])
                     {
                         self.voxels[at] = true;
-                        left -= 1;
+                        bumps += 1;
                     }
                 }
             }
         }
-        left == 0
+        bumps
     }
 
     fn text(&self) -> String {
@@ -122,4 +145,17 @@ fn whole(length: f64) -> usize {
     )]
     let whole = length.ceil().max(0.0) as usize;
     whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::stacking::panels_of;
+
+    #[test]
+    fn a_solid_has_as_many_panels_as_asked_for() {
+        for panels in [1_000, 1_002, 10_000, 30_000, 100_000] {
+            assert_eq!(panels_of(&voxel_text(panels).unwrap()), panels);
+        }
+    }
 }

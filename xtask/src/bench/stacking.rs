@@ -65,7 +65,7 @@ fn machine() -> String {
 }
 
 /// Squares between solid and empty of a voxel text.
-fn panels_of(text: &str) -> usize {
+pub(super) fn panels_of(text: &str) -> usize {
     let slices: Vec<Vec<&[u8]>> = text
         .split("\n\n")
         .map(|slice| slice.lines().filter(|row| !row.is_empty()).map(str::as_bytes).collect())
