@@ -19,12 +19,12 @@ const PANELS_PER_SIZE: f64 = 9.5;
 /// Sizes tried.
 const TRIES: usize = 60;
 /// Empty voxels around the solid: room for bumps, and nobody beyond the edge.
-const MARGIN: usize = 2;
+pub(super) const MARGIN: usize = 2;
 
 /// Voxels in a box, x fastest.
-struct Solid {
-    sides: [usize; 3],
-    voxels: Vec<bool>,
+pub(super) struct Solid {
+    pub(super) sides: [usize; 3],
+    pub(super) voxels: Vec<bool>,
 }
 
 /// The solid with exactly so many panels, as voxel text.
@@ -74,7 +74,7 @@ impl Solid {
     }
 
     /// Squares between solid and empty.
-    fn panels(&self) -> usize {
+    pub(super) fn panels(&self) -> usize {
         let steps = [1, self.sides[0], self.sides[0] * self.sides[1]];
         let faces =
             |step: usize| self.voxels.iter().zip(&self.voxels[step..]).filter(|(a, b)| a != b).count();
@@ -123,7 +123,7 @@ impl Solid {
         bumps
     }
 
-    fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         let mut text = String::with_capacity(self.voxels.len() + self.voxels.len() / 8);
         for (number, row) in self.voxels.chunks(self.sides[0]).enumerate() {
             if number > 0 && number % self.sides[1] == 0 {

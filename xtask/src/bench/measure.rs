@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// GNU time, which tells the most memory that a process held at once.
+/// GNU time, which tells the most memory that a process held at once, in kilobytes, and the seconds of processor time it took.
 const TIME: &str = "/usr/bin/time";
 /// What a row holds where nothing is known.
 const UNKNOWN: &str = "";
@@ -20,24 +20,39 @@ pub(super) struct Bench {
 
 /// What the runs of one command came to.
 pub(super) enum Row {
-    /// Seconds in order, kilobytes where they are known, what the program said, and whether a check found the plan valid.
-    Planned { seconds: Vec<f64>, kilobytes: Option<u64>, said: String, valid: bool },
+    /// Seconds in order, what GNU time said of each run, what the program said, and whether a check found the plan valid.
+    Planned { seconds: Vec<f64>, used: Vec<Used>, said: String, valid: bool },
     /// What the program said in place of a plan.
     Refused(String),
 }
 
-pub(super) const HEAD: &str = "| instance | N | K | seconds, median (min to max) | peak MB | bridges | cut | depth | valid |\n|---|---|---|---|---|---|---|---|---|";
+/// What one run used.
+pub(super) struct Used {
+    kilobytes: f64,
+    processor_seconds: f64,
+}
+
+impl Used {
+    /// Reads the last line that a command left under GNU time.
+    fn of(complaint: &str) -> Option<Self> {
+        let numbers: Vec<f64> = complaint.lines().next_back()?.split(' ').flat_map(str::parse).collect();
+        let [kilobytes, user, system] = numbers[..] else { return None };
+        Some(Self { kilobytes, processor_seconds: user + system })
+    }
+}
+
+pub(super) const HEAD: &str = "| instance | N | K | seconds, median (min to max) | CPU s | peak MB | bridges | cut | depth | valid |\n|---|---|---|---|---|---|---|---|---|---|";
 
 impl Bench {
     /// Plans a model several times.
     pub(super) fn measure(&self, model: &Path, piles: usize, runs: usize) -> Result<Row> {
         let plan = self.place.join("plan.fold");
         let timed = Path::new(TIME).is_file();
-        let (mut seconds, mut said, mut kilobytes) = (Vec::with_capacity(runs), String::new(), None);
+        let (mut seconds, mut used, mut said) = (Vec::with_capacity(runs), Vec::new(), String::new());
         for _ in 0..runs {
             let mut command = if timed { Command::new(TIME) } else { Command::new(&self.program) };
             if timed {
-                command.args(["-q", "-f", "%M"]).arg(&self.program);
+                command.args(["-q", "-f", "%M %U %S"]).arg(&self.program);
             }
             command.arg("plan").arg(model).args(["--piles", &piles.to_string(), "--output"]).arg(&plan);
             let begin = Instant::now();
@@ -47,17 +62,19 @@ impl Bench {
             let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
             if !output.status.success() {
                 // Without the line that GNU time adds.
-                let words = complaint.lines().filter(|line| line.parse::<u64>().is_err());
-                return Ok(Row::Refused(words.collect::<Vec<_>>().join(" ")));
+                let words = complaint.lines().filter(|line| Used::of(line).is_none());
+                let told = words.collect::<Vec<_>>().join(" ");
+                let reason =
+                    told.split_once(&format!("{}: ", model.display())).map(|(_, reason)| reason.into());
+                return Ok(Row::Refused(reason.unwrap_or(told)));
             }
-            let most = complaint.lines().next_back().and_then(|line| line.parse::<u64>().ok());
-            kilobytes = kilobytes.max(most);
+            used.extend(Used::of(&complaint));
             said = String::from_utf8_lossy(&output.stdout).into_owned();
         }
         seconds.sort_by(f64::total_cmp);
         // A process of its own reads the file again and checks it by rules that share no code with the planner.
         let valid = tools::output_of(Command::new(&self.program).arg("check").arg(&plan)).is_ok();
-        Ok(Row::Planned { seconds, kilobytes, said, valid })
+        Ok(Row::Planned { seconds, used, said, valid })
     }
 
     /// Prints a row.
@@ -82,18 +99,21 @@ impl Bench {
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Planned { seconds, kilobytes, said, valid } => {
+            Self::Planned { seconds, used, said, valid } => {
                 write!(f, "{}", spread(seconds))?;
-                match kilobytes {
-                    Some(kilobytes) => write!(f, " | {}", kilobytes.div_ceil(1024))?,
-                    None => write!(f, " | {UNKNOWN}")?,
+                let mut processor: Vec<f64> = used.iter().map(|run| run.processor_seconds).collect();
+                processor.sort_by(f64::total_cmp);
+                let most = used.iter().map(|run| run.kilobytes).reduce(f64::max);
+                match (processor.get(processor.len() / 2), most) {
+                    (Some(median), Some(most)) => write!(f, " | {median:.2} | {:.0}", most / 1024.0)?,
+                    _ => write!(f, " | {UNKNOWN} | {UNKNOWN}")?,
                 }
                 for label in ["bridges: ", "cut edges: ", "depth of the tree path: "] {
                     write!(f, " | {}", number_after(said, label))?;
                 }
                 write!(f, " | {}", if *valid { "yes" } else { "NO" })
             }
-            Self::Refused(reason) => write!(f, "refused: {} | | | | |", reason.trim()),
+            Self::Refused(reason) => write!(f, "refused: {} | | | | | |", reason.trim()),
         }
     }
 }

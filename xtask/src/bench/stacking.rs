@@ -1,6 +1,7 @@
 //! `cargo xtask bench stacking [--large] [--peers]`: how long planning takes, from a model file to a checked plan on disk.
 
 use super::blob;
+use super::hard;
 use super::measure::{Bench, HEAD};
 use super::peers;
 use crate::tools::{self, cargo};
@@ -48,6 +49,11 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
         for count in *piles {
             bench.row("ellipsoids", &model, *panels, *count, *runs)?;
         }
+    }
+    for (name, solid) in hard::solids() {
+        let model = bench.place.join("hard.txt");
+        fs::write(&model, solid.text()).with_context(|| model.display().to_string())?;
+        bench.row(name, &model, solid.panels(), 1, RUNS)?;
     }
     println!("\nRandom solids of 20 to 400 voxels:\n");
     let mut campaign = cargo();
