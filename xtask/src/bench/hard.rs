@@ -41,7 +41,8 @@ impl Solid {
     fn scatter_bumps(&mut self) {
         let before = self.voxels.clone();
         let [width, depth, _] = self.sides;
-        for at in width * depth..before.len() - width * depth {
+        let edge = (depth + 1) * width + 1;
+        for at in edge..before.len() - edge {
             let around = || (0..9).map(|n| at + (n / 3) * width + n % 3 - width - 1);
             let is_flat = around()
                 .all(|i| before.get(i - width * depth) == Some(&true) && before.get(i) == Some(&false));
@@ -64,4 +65,20 @@ fn rounded(length: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "lengths of a box, above 0")]
     let whole = length.round() as usize;
     whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::stacking::panels_of;
+
+    #[test]
+    fn the_torus_and_the_plate_have_bumps_and_the_text_tells_the_same_solid() {
+        for (name, solid) in solids() {
+            assert_eq!(panels_of(&solid.text()), solid.panels(), "{name}");
+        }
+        let smooth = 2 * PLATE * PLATE + 4 * PLATE;
+        assert!(solids()[1].1.panels() > smooth + 10_000);
+        assert_eq!(solids()[2].1.panels(), 4 * ROD + 2);
+    }
 }

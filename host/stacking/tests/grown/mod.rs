@@ -68,7 +68,7 @@ fn grow(growth: Growth, voxels: usize, stream: &mut Stream) -> BTreeSet<Voxel> {
     let mut row = vec![[0; 3]];
     let mut grown = BTreeSet::from([[0; 3]]);
     // A box that the solid fills by about 60 %.
-    let side = i32::try_from((1..).find(|side: &usize| side.pow(3) * 3 >= voxels * 5).unwrap()).unwrap();
+    let side = i32::try_from((1..=MOST).find(|side| side.pow(3) * 3 >= voxels * 5).unwrap()).unwrap();
     while grown.len() < voxels {
         let from = match growth {
             Growth::Tendrils => row.len() - 1 - stream.below(row.len().min(6)),
