@@ -2,12 +2,14 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to its terminal")]
 
 mod arrows;
+mod bench;
 mod demo;
 mod docs;
 mod firmware;
 mod hil;
 mod lint;
 mod parts;
+mod python;
 mod sections;
 mod tests;
 mod tools;
@@ -28,6 +30,11 @@ const PARTS: &[Part] = &[
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [verb, name, options @ ..] = arguments.as_slice()
+        && (verb.as_str(), name.as_str()) == ("bench", "stacking")
+    {
+        return told(bench::stacking::run(options));
+    }
     let [verb] = arguments.as_slice() else {
         eprintln!("expected one verb, got {}\n{}", arguments.len(), usage());
         return ExitCode::from(2);
@@ -41,6 +48,10 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
+    told(result)
+}
+
+fn told(result: anyhow::Result<()>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         // Without the backtrace that `Debug` may add.
@@ -54,7 +65,7 @@ fn main() -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

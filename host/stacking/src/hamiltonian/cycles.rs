@@ -41,10 +41,15 @@ impl Cycles {
         self.known.len()
     }
 
-    /// One node of each of the shortest cycles, with the length of the cycle.
-    pub(super) fn shortest(&self, how_many: usize) -> Vec<(usize, usize)> {
-        let short = self.by_length.iter().take(how_many);
-        short.map(|(length, name)| (*length, self.segments.first(self.known[name].1[0]))).collect()
+    /// Length and name of every cycle, the shortest first.
+    pub(super) fn by_length(&self) -> impl DoubleEndedIterator<Item = (usize, usize)> {
+        self.by_length.iter().copied()
+    }
+
+    /// Length of a cycle and one of its nodes; none when there is no cycle of that name (any more).
+    pub(super) fn length_and_member(&self, name: usize) -> Option<(usize, usize)> {
+        let (length, row) = self.known.get(&name)?;
+        Some((*length, self.segments.first(row[0])))
     }
 
     /// The name of a node's cycle.
@@ -52,7 +57,7 @@ impl Cycles {
         self.segments.of(node).cycle
     }
 
-    fn name(&mut self, row: Vec<usize>) {
+    fn name(&mut self, row: Vec<usize>) -> usize {
         let name = self.next_name;
         self.next_name += 1;
         let mut length = 0;
@@ -61,10 +66,12 @@ impl Cycles {
         }
         self.by_length.insert((length, name));
         self.known.insert(name, (length, row));
+        name
     }
 
-    /// After an exchange: cuts the cycles that it touched where edges went, and joins the pieces where edges came.
-    pub(super) fn renew(&mut self, removed: &[Edge], added: &[Edge]) {
+    /// After an exchange: cuts the cycles that it touched where edges went, and joins the pieces where edges came. Gives
+    /// the names of the cycles that come of it.
+    pub(super) fn renew(&mut self, removed: &[Edge], added: &[Edge]) -> Vec<usize> {
         let mut cuts: Vec<(usize, u64, usize)> =
             removed.iter().map(|(u, v)| self.cut_after(*u, *v)).collect();
         cuts.sort_unstable();
@@ -86,10 +93,13 @@ impl Cycles {
             tail.extend(row);
             pieces.push(tail);
         }
-        for row in self.joined(pieces, added) {
-            let row = self.segments.merge_small(row);
-            self.name(row);
-        }
+        let rows = self.joined(pieces, added);
+        rows.into_iter()
+            .map(|row| {
+                let row = self.segments.merge_small(row);
+                self.name(row)
+            })
+            .collect()
     }
 
     /// Strings pieces together along the added edges, into a row of segments for each cycle.

@@ -1,11 +1,13 @@
 //! Joins the cycles that are left: alternating closed walks from the shortest cycles, removing two to six edges and adding
 //! as many, taken when the number of cycles falls. Where none helps, a walk that changes nothing in the number is taken
-//! nearby, and the search goes on from there.
+//! nearby, or a detour of any length out of the cycle, and the search goes on from there.
 
 use super::cover::Cover;
 use super::cycles::Cycles;
 use super::graph::Graph;
+use super::trails::Trails;
 use crate::random::Random;
+use std::collections::BTreeSet;
 
 /// Most edges that one exchange removes.
 const LONGEST: usize = 6;
@@ -15,32 +17,89 @@ const STARTS: usize = 24;
 const STEPS: usize = 6000;
 /// How far from the cycle in question a kick may begin, in panels.
 const KICK_DISTANCE: usize = 8;
+/// Panels that the first detour may look at; each later one that is needed looks at four times as many.
+const NEAR: usize = 64;
+/// Panels that all detours together may look at, in units of all panels.
+const EFFORT: usize = 100;
 
 type Edges = Vec<(usize, usize)>;
 
 /// Joins cycles as far as possible and returns how many are left. Gives up after so many kicks without a fall in their number.
 pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover, most_kicks: usize, random: &mut Random) -> usize {
     let mut cycles = Cycles::of(cover);
-    let mut kicks = 0;
-    while cycles.count() > 1 && kicks < most_kicks {
-        // The shortest cycles take turns while they resist, but never the longest of all.
-        let short = cycles.shortest((1 + kicks % 4).min(cycles.count() - 1));
-        let Some(&(length, member)) = short.last() else { break };
+    let mut trails = Trails::new(graph.nodes());
+    // Cycles by how often they resisted, then by length; names of cycles that are gone are passed over.
+    let mut queue: BTreeSet<(usize, usize, usize)> =
+        cycles.by_length().map(|(length, name)| (0, length, name)).collect();
+    let (mut fewest, mut kicks) = (cycles.count(), 0);
+    while cycles.count() > 1 && kicks < most_kicks && trails.steps() < EFFORT * graph.nodes() {
+        let Some((resisted, length, name)) = queue.pop_first() else { break };
+        let Some((_, member)) = cycles.length_and_member(name) else { continue };
+        queue.insert((resisted + 1, length, name));
+        // The longest of all is what the others join.
+        if cycles.by_length().next_back() == Some((length, name)) {
+            continue;
+        }
         let starts = starts(graph, cover, &cycles, member, length, random);
-        let joined = (2..=LONGEST).find_map(|longest| {
+        let joined = (2..=LONGEST.min(4 + resisted)).find_map(|longest| {
             starts.iter().find_map(|start| Walk::new(graph, cover, &cycles, longest).falling(*start))
         });
-        kicks = if joined.is_some() { 0 } else { kicks + 1 };
+        let resisted = if joined.is_some() { 0 } else { resisted + 1 };
         let exchange = joined.or_else(|| {
-            let start = stroll(graph, member, random);
-            Walk::new(graph, cover, &cycles, 2 + random.below(3)).level(start, random)
+            kicks += 1;
+            if resisted % 2 == 1 {
+                let reach = NEAR << (2 * resisted.min(8));
+                detour(graph, cover, &mut trails, *starts.first()?, reach, random)
+            } else {
+                let start = stroll(graph, member, random);
+                Walk::new(graph, cover, &cycles, 2 + random.below(3)).level(start, random)
+            }
         });
         if let Some((removed, added)) = exchange {
             cover.exchange(&removed, &added);
-            cycles.renew(&removed, &added);
+            for name in cycles.renew(&removed, &added) {
+                if let Some((length, _)) = cycles.length_and_member(name) {
+                    queue.insert((resisted, length, name));
+                }
+            }
+        }
+        if cycles.count() < fewest {
+            (fewest, kicks) = (cycles.count(), 0);
         }
     }
     cycles.count()
+}
+
+/// An exchange that takes an edge out of a node's cycle, whatever that does elsewhere; sought among so many panels.
+fn detour(
+    graph: &Graph<'_>,
+    cover: &mut Cover,
+    trails: &mut Trails,
+    node: usize,
+    reach: usize,
+    random: &mut Random,
+) -> Option<(Edges, Edges)> {
+    let near: Vec<usize> = graph.neighbours(node).iter().copied().filter(|n| !cover.has(node, *n)).collect();
+    if near.is_empty() {
+        return None;
+    }
+    let other = near[random.below(near.len())];
+    let mut mate_of = |node: usize| cover.mates(node).nth(random.below(2));
+    let (from, to) = (mate_of(node)?, mate_of(other)?);
+    if from == to {
+        return None;
+    }
+    let (cut, joined) = ([(node, from), (other, to)], [(node, other)]);
+    cover.exchange(&cut, &joined);
+    let trail = trails.from(graph, cover, from, Some(joined[0]), reach, random);
+    cover.exchange(&joined, &cut);
+    let (mut removed, mut added) = trail?;
+    removed.extend(cut);
+    added.extend(joined);
+    let both: Edges = removed.iter().filter(|(u, v)| holds(&added, *u, *v)).copied().collect();
+    removed.retain(|(u, v)| !holds(&both, *u, *v));
+    added.retain(|(u, v)| !holds(&both, *u, *v));
+    Some((removed, added))
 }
 
 /// Nodes of a cycle to begin at: those that have a neighbour in another one, all or some of them.

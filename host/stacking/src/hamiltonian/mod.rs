@@ -1,13 +1,16 @@
 //! A strip through all panels: a Hamiltonian cycle of the dual graph, or a path where no cycle is found.
 //!
 //! ```text
+//! bumps:      single voxels that stick out      -> one panel each, five again at the end
 //! two_factor: every panel gets two neighbours   -> many small cycles
 //! faces:      exchanges around lattice vertices -> few cycles
 //! exchanges:  longer alternating walks, locally -> one cycle
+//! trails:     alternating walks of any length, where none nearby helps
 //! ```
 //!
 //! A path is a cycle through one more node, the apex, that neighbours every panel: so one method finds both.
 
+mod bumps;
 mod cover;
 mod cycles;
 mod exchanges;
@@ -15,6 +18,7 @@ mod faces;
 mod graph;
 mod obstacles;
 mod segments;
+mod trails;
 mod two_factor;
 
 use crate::random::Random;
@@ -85,19 +89,23 @@ pub(crate) fn find(neighbours: &[Vec<usize>], seed: u64) -> Result<Strip, NoStri
         return Ok(Strip { order: (0..panels).collect(), closed: false });
     }
     let cycle_possible = obstacles::look_for(neighbours)?;
+    let flat = bumps::flatten(neighbours);
     let mut fewest = usize::MAX;
     let mut attempts = 0;
     for with_apex in [false, true] {
         if !with_apex && !cycle_possible {
             continue;
         }
-        let graph = Graph::new(neighbours, with_apex);
-        for attempt in 0..ATTEMPTS {
-            attempts += 1;
-            let mut random = Random::new(seed, 2 * attempt + u64::from(with_apex));
-            match search(&graph, KICKS, &mut random) {
-                Ok(strip) => return Ok(strip),
-                Err(pieces) => fewest = fewest.min(pieces),
+        let whole = Graph::new(neighbours, with_apex);
+        let without_bumps = flat.as_ref().map(|flat| Graph::new(&flat.neighbours, with_apex));
+        for (graph, flat) in without_bumps.iter().zip([flat.as_ref()]).chain([(&whole, None)]) {
+            for attempt in 0..ATTEMPTS {
+                attempts += 1;
+                let mut random = Random::new(seed, 2 * attempt + u64::from(with_apex));
+                match search(graph, KICKS, &mut random) {
+                    Ok(strip) => return Ok(if let Some(flat) = flat { flat.raised(&strip) } else { strip }),
+                    Err(pieces) => fewest = fewest.min(pieces),
+                }
             }
         }
     }
@@ -119,9 +127,15 @@ pub(crate) fn find_in_part(
     if !obstacles::look_for(neighbours).is_ok_and(|cycle_possible| cycle_possible || !closed) {
         return None;
     }
-    let graph = Graph::new(neighbours, !closed).along(lanes);
-    (0..ATTEMPTS_IN_PART)
-        .find_map(|attempt| search(&graph, KICKS_IN_PART, &mut Random::new(seed, 2 * attempt)).ok())
+    let attempt = |graph: &Graph<'_>| {
+        (0..ATTEMPTS_IN_PART)
+            .find_map(|attempt| search(graph, KICKS_IN_PART, &mut Random::new(seed, 2 * attempt)).ok())
+    };
+    let without_bumps = || {
+        let flat = bumps::flatten(neighbours)?;
+        Some(flat.raised(&attempt(&Graph::new(&flat.neighbours, !closed))?))
+    };
+    attempt(&Graph::new(neighbours, !closed).along(lanes)).or_else(without_bumps)
 }
 
 /// One attempt; where it fails it says in how many pieces the best cover was.
@@ -157,7 +171,7 @@ mod tests {
         neighbours
     }
 
-    fn assert_strip(neighbours: &[Vec<usize>], strip: &Strip) {
+    pub(super) fn assert_strip(neighbours: &[Vec<usize>], strip: &Strip) {
         let mut sorted = strip.order.clone();
         sorted.sort_unstable();
         assert_eq!(sorted, (0..neighbours.len()).collect::<Vec<_>>());

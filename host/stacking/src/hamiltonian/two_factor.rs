@@ -3,8 +3,8 @@
 
 use super::cover::Cover;
 use super::graph::Graph;
+use super::trails::Trails;
 use crate::random::Random;
-use std::collections::{BTreeSet, VecDeque};
 
 /// How often a node is tried from which a repair failed; each try walks in another order.
 const REPAIRS: usize = 8;
@@ -12,11 +12,13 @@ const REPAIRS: usize = 8;
 /// Finds a cover by cycles, or gives up.
 pub(super) fn find(graph: &Graph<'_>, random: &mut Random) -> Option<Cover> {
     let mut cover = greedy(graph, random);
-    let mut search = Search::new(graph.nodes());
+    let mut trails = Trails::new(graph.nodes());
     for node in 0..graph.panels() {
         let mut tries = 0;
         while cover.lacks(node) > 0 {
-            if !search.repair(graph, &mut cover, node, random) {
+            if let Some((removed, added)) = trails.from(graph, &cover, node, None, usize::MAX, random) {
+                cover.exchange(&removed, &added);
+            } else {
                 tries += 1;
                 if tries == REPAIRS {
                     return None;
@@ -138,96 +140,4 @@ fn greedy(graph: &Graph<'_>, random: &mut Random) -> Cover {
         queue.forget(graph, &cover, node, node);
     }
     cover
-}
-
-/// Where an alternating walk stands: at a node, about to add an edge or about to remove one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Next {
-    Adds,
-    Removes,
-}
-
-/// Breadth-first search for an alternating walk from a node that lacks a mate to another one.
-struct Search {
-    /// For both states of every node the node that it was reached from, and the round of the search that did.
-    reached: [Vec<(usize, usize)>; 2],
-    round: usize,
-}
-
-impl Search {
-    fn new(nodes: usize) -> Self {
-        Self { reached: [vec![(0, 0); nodes], vec![(0, 0); nodes]], round: 0 }
-    }
-
-    fn mark(&mut self, state: Next, node: usize, from: usize) -> bool {
-        let place = &mut self.reached[state as usize][node];
-        let fresh = place.1 != self.round;
-        if fresh {
-            *place = (from, self.round);
-        }
-        fresh
-    }
-
-    /// Gives `start` one more mate without taking one from anybody but along the walk. False where no walk was found.
-    fn repair(&mut self, graph: &Graph<'_>, cover: &mut Cover, start: usize, random: &mut Random) -> bool {
-        self.round += 1;
-        self.mark(Next::Adds, start, start);
-        let mut queue = VecDeque::from([(start, Next::Adds)]);
-        while let Some((node, next)) = queue.pop_front() {
-            match next {
-                Next::Adds => {
-                    let mut others = graph.neighbours(node).to_vec();
-                    random.shuffle(&mut others);
-                    others.extend(graph.apex().filter(|apex| *apex != node));
-                    for other in others {
-                        if cover.has(node, other) || !self.mark(Next::Removes, other, node) {
-                            continue;
-                        }
-                        let lacks = cover.lacks(other);
-                        if lacks > usize::from(other == start) && self.apply(cover, start, other) {
-                            return true;
-                        }
-                        if lacks == 0 {
-                            queue.push_back((other, Next::Removes));
-                        }
-                    }
-                }
-                Next::Removes => {
-                    for mate in cover.mates(node) {
-                        if self.mark(Next::Adds, mate, node) {
-                            queue.push_back((mate, Next::Adds));
-                        }
-                    }
-                }
-            }
-        }
-        false
-    }
-
-    /// Follows the walk back from its end and applies it, unless it takes an edge twice.
-    fn apply(&self, cover: &mut Cover, start: usize, end: usize) -> bool {
-        let (mut added, mut removed) = (Vec::new(), Vec::new());
-        let (mut node, mut state) = (end, Next::Removes);
-        while (node, state) != (start, Next::Adds) {
-            let (from, _) = self.reached[state as usize][node];
-            let edge = (from.min(node), from.max(node));
-            state = match state {
-                Next::Removes => {
-                    added.push(edge);
-                    Next::Adds
-                }
-                Next::Adds => {
-                    removed.push(edge);
-                    Next::Removes
-                }
-            };
-            node = from;
-        }
-        let distinct = |edges: &[(usize, usize)]| edges.iter().collect::<BTreeSet<_>>().len() == edges.len();
-        let sound = distinct(&added) && distinct(&removed);
-        if sound {
-            cover.exchange(&removed, &added);
-        }
-        sound
-    }
 }
