@@ -235,6 +235,7 @@ impl Found {
             source: Source {
                 model: model.name.clone(),
                 voxel_size: model.voxel_size,
+                distance: model.distance,
                 bounds: model.surface.bounds(),
                 seed: request.seed,
                 program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),

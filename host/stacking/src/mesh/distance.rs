@@ -1,0 +1,150 @@
+//! How far the solid's surface and the mesh are apart, measured both ways from points on each. `Mesh` calls it.
+
+use super::nearest::{Nearest, Square};
+use super::{Corner, Mesh, Triangle, dot, minus};
+use crate::square::Quad;
+use std::fmt;
+
+/// Points on the mesh are so far apart at most, in voxels, ...
+const SPACING: f64 = 0.5;
+
+/// ... unless there would be more points than this.
+const POINTS: f64 = 200_000.0;
+
+/// How far two surfaces are apart, in voxels. Sampled: from the corners and the centre of every panel to the mesh, and from points
+/// on the mesh half a voxel apart to the panels (fewer on very large ones).
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Distance {
+    /// The largest distance from a point on either to the other: the Hausdorff distance.
+    #[serde(rename = "hausdorff_voxels")]
+    pub hausdorff: f64,
+    /// The mean over the points on the mesh and over those on the panels, half of each.
+    #[serde(rename = "mean_voxels")]
+    pub mean: f64,
+    /// The point that is farthest from the other surface, in units of the mesh.
+    pub at: [f64; 3],
+}
+
+impl fmt::Display for Distance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.at;
+        let Self { hausdorff, mean, .. } = self;
+        write!(f, "Hausdorff {hausdorff:.2} voxels, at ({x}, {y}, {z}); mean {mean:.2} voxels (sampled)")
+    }
+}
+
+/// A sum of distances and the largest of them.
+#[derive(Default)]
+struct Tally {
+    sum: f64,
+    weight: f64,
+    largest: f64,
+    at: Corner,
+}
+
+impl Tally {
+    fn add(&mut self, point: Corner, distance: f64, weight: f64) {
+        self.sum += distance * weight;
+        self.weight += weight;
+        if distance > self.largest {
+            (self.largest, self.at) = (distance, point);
+        }
+    }
+}
+
+/// Measures; the panels are in voxels from the least corner of the mesh's box.
+pub(super) fn measure(mesh: &Mesh, panels: &[Quad], voxel_size: f64) -> Distance {
+    let (mut from_panels, mut from_mesh) = (Tally::default(), Tally::default());
+    let every = (5.0 * panels.len() as f64 / POINTS).ceil().max(1.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most the number of panels"
+    )]
+    for quad in panels.iter().step_by(every as usize) {
+        let corners = quad.map(|corner| corner.map(f64::from));
+        let middle = [0, 1, 2].map(|axis| (corners[0][axis] + corners[2][axis]) / 2.0);
+        for point in corners.into_iter().chain([middle]) {
+            from_panels.add(point, mesh.distance(point, voxel_size), 1.0);
+        }
+    }
+    let squares = Nearest::new(panels.iter().map(Square::of).collect());
+    let spacing = SPACING.max((mesh.area() / (voxel_size * voxel_size) / POINTS).sqrt());
+    for triangle in &mesh.triangles {
+        let triangle =
+            triangle.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - mesh.least[axis]) / voxel_size));
+        let weight = super::area(&triangle);
+        let points = points_on(&triangle, spacing);
+        let share = weight / points.len() as f64;
+        for point in points {
+            from_mesh.add(point, squares.distance(point), share);
+        }
+    }
+    let farthest = if from_mesh.largest > from_panels.largest { &from_mesh } else { &from_panels };
+    let mean = |tally: &Tally| tally.sum / tally.weight.max(f64::MIN_POSITIVE);
+    Distance {
+        hausdorff: rounded(farthest.largest),
+        mean: rounded(f64::midpoint(mean(&from_panels), mean(&from_mesh))),
+        at: [0, 1, 2].map(|axis| rounded_at(mesh.least[axis] + farthest.at[axis] * voxel_size, voxel_size)),
+    }
+}
+
+/// Points on a triangle at most so far apart, its corners among them: in rows along its longest side.
+fn points_on(corners: &Triangle, spacing: f64) -> Vec<Corner> {
+    let length = |side: usize| {
+        let way = minus(corners[(side + 1) % 3], corners[side]);
+        dot(way, way).sqrt()
+    };
+    let first = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b))).unwrap_or(0);
+    let [a, b, c] = [0, 1, 2].map(|place| corners[(first + place) % 3]);
+    let longest = length(first);
+    let steps = |length: f64| (length / spacing).ceil().clamp(1.0, POINTS);
+    let height = if longest > 0.0 { 2.0 * super::area(corners) / longest } else { 0.0 };
+    let rows = steps(height);
+    let mut points = Vec::new();
+    for up in counted(rows).map(|row| row / rows) {
+        let on_row = if up < 1.0 { steps((1.0 - up) * longest) } else { 1.0 };
+        for along in counted(if up < 1.0 { on_row } else { 0.0 }).map(|step| (1.0 - up) * step / on_row) {
+            points
+                .push([0, 1, 2].map(|axis| a[axis] + along * (b[axis] - a[axis]) + up * (c[axis] - a[axis])));
+        }
+    }
+    points
+}
+
+/// 0, 1, 2 and so on up to a whole number.
+fn counted(last: f64) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(0.0), move |number| (*number < last).then_some(number + 1.0))
+}
+
+/// Few digits: nobody needs more, and they come back from the file as they were.
+fn rounded(distance: f64) -> f64 {
+    (distance * 1e4).round() / 1e4
+}
+
+/// A coordinate to about a hundredth of a voxel.
+fn rounded_at(c: f64, voxel_size: f64) -> f64 {
+    let scale = 10_f64.powf((100.0 / voxel_size).log10().ceil().clamp(-12.0, 12.0));
+    (c * scale).round() / scale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_cover_a_triangle_and_a_needle_with_few_of_them() {
+        let broad = points_on(&[[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 0.5);
+        for corner in [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]] {
+            assert!(broad.iter().any(|point| dot(minus(*point, corner), minus(*point, corner)) < 1e-12));
+        }
+        for probe in
+            (0..40).flat_map(|i| (0..40 - i).map(move |j| [f64::from(i) / 10.0, f64::from(j) / 10.0, 0.0]))
+        {
+            let nearest = broad.iter().map(|point| dot(minus(*point, probe), minus(*point, probe)).sqrt());
+            assert!(nearest.fold(f64::INFINITY, f64::min) < 0.5, "{probe:?}");
+        }
+        assert!(points_on(&[[0.0; 3], [0.01, 100.0, 0.0], [0.0, 50.0, 0.01]], 0.5).len() < 500);
+        assert!(points_on(&[[1.0; 3]; 3], 0.5).len() < 10);
+    }
+}
