@@ -123,7 +123,7 @@ impl Voxels {
     }
 
     /// The voxel's number; the voxel is in the box.
-    fn number(&self, at: Point) -> usize {
+    pub(crate) fn number(&self, at: Point) -> usize {
         let [x, y, z] = [0, 1, 2].map(|axis| usize::try_from(at[axis] - self.least[axis]).unwrap_or(0));
         let [width, depth, _] = self.sides.map(|c| usize::try_from(c).unwrap_or(0));
         (z * depth + y) * width + x

@@ -1,7 +1,7 @@
 //! How far the solid's surface and the mesh are apart, measured both ways from points on each. `Mesh` calls it.
 
 use super::nearest::{Nearest, Square};
-use super::{Corner, Mesh, Triangle, dot, minus};
+use super::{Corner, Mesh, Solid, Triangle, area, dot, minus, normal};
 use crate::square::Quad;
 use std::fmt;
 
@@ -11,8 +11,16 @@ const SPACING: f64 = 0.5;
 /// ... unless there would be more points than this.
 const POINTS: f64 = 200_000.0;
 
+/// A point on the mesh that is so deep in the solid, in voxels, may be on a wall between shells that overlap: it is none of the outside
+/// when the mesh winds round both of its sides, and isn't counted.
+const DEEP: f64 = 0.75;
+
+/// Those sides are so far from the wall, in voxels.
+const BESIDE: f64 = 1e-3;
+
 /// How far two surfaces are apart, in voxels. Sampled: from the corners and the centre of every panel to the mesh, and from points
-/// on the mesh half a voxel apart to the panels (fewer on very large ones).
+/// on the mesh half a voxel apart to the panels (fewer on very large ones). Walls inside, where shells of the mesh overlap, don't
+/// count.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Distance {
     /// The largest distance from a point on either to the other: the Hausdorff distance.
@@ -53,7 +61,8 @@ impl Tally {
 }
 
 /// Measures; the panels are in voxels from the least corner of the mesh's box.
-pub(super) fn measure(mesh: &Mesh, panels: &[Quad], voxel_size: f64) -> Distance {
+pub(super) fn measure(mesh: &Mesh, solid: &Solid, panels: &[Quad]) -> Distance {
+    let voxel_size = solid.voxel_size;
     let (mut from_panels, mut from_mesh) = (Tally::default(), Tally::default());
     let every = (5.0 * panels.len() as f64 / POINTS).ceil().max(1.0);
     #[expect(
@@ -63,21 +72,27 @@ pub(super) fn measure(mesh: &Mesh, panels: &[Quad], voxel_size: f64) -> Distance
     )]
     for quad in panels.iter().step_by(every as usize) {
         let corners = quad.map(|corner| corner.map(f64::from));
-        let middle = [0, 1, 2].map(|axis| (corners[0][axis] + corners[2][axis]) / 2.0);
+        let middle = [0, 1, 2].map(|axis| f64::midpoint(corners[0][axis], corners[2][axis]));
         for point in corners.into_iter().chain([middle]) {
             from_panels.add(point, mesh.distance(point, voxel_size), 1.0);
         }
     }
     let squares = Nearest::new(panels.iter().map(Square::of).collect());
     let spacing = SPACING.max((mesh.area() / (voxel_size * voxel_size) / POINTS).sqrt());
-    for triangle in &mesh.triangles {
-        let triangle =
-            triangle.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - mesh.least[axis]) / voxel_size));
-        let weight = super::area(&triangle);
+    let in_mesh = |point: Corner| [0, 1, 2].map(|axis| mesh.least[axis] + point[axis] * voxel_size);
+    for triangle in mesh.in_voxels(voxel_size) {
         let points = points_on(&triangle, spacing);
-        let share = weight / points.len() as f64;
+        let share = area(&triangle) / points.len() as f64;
+        let normal = normal(&triangle).unwrap_or_default();
+        let beside = |point: Corner, by: f64| [0, 1, 2].map(|axis| point[axis] + by * normal[axis]);
         for point in points {
-            from_mesh.add(point, squares.distance(point), share);
+            let distance = squares.distance(point);
+            let hidden = distance > DEEP
+                && solid.holds(point)
+                && [BESIDE, -BESIDE].iter().all(|by| mesh.is_inside(in_mesh(beside(point, *by))));
+            if !hidden {
+                from_mesh.add(point, distance, share);
+            }
         }
     }
     let farthest = if from_mesh.largest > from_panels.largest { &from_mesh } else { &from_panels };
@@ -85,12 +100,12 @@ pub(super) fn measure(mesh: &Mesh, panels: &[Quad], voxel_size: f64) -> Distance
     Distance {
         hausdorff: rounded(farthest.largest),
         mean: rounded(f64::midpoint(mean(&from_panels), mean(&from_mesh))),
-        at: [0, 1, 2].map(|axis| rounded_at(mesh.least[axis] + farthest.at[axis] * voxel_size, voxel_size)),
+        at: in_mesh(farthest.at).map(|c| rounded_at(c, voxel_size)),
     }
 }
 
 /// Points on a triangle at most so far apart, its corners among them: in rows along its longest side.
-fn points_on(corners: &Triangle, spacing: f64) -> Vec<Corner> {
+pub(super) fn points_on(corners: &Triangle, spacing: f64) -> Vec<Corner> {
     let length = |side: usize| {
         let way = minus(corners[(side + 1) % 3], corners[side]);
         dot(way, way).sqrt()
@@ -99,7 +114,7 @@ fn points_on(corners: &Triangle, spacing: f64) -> Vec<Corner> {
     let [a, b, c] = [0, 1, 2].map(|place| corners[(first + place) % 3]);
     let longest = length(first);
     let steps = |length: f64| (length / spacing).ceil().clamp(1.0, POINTS);
-    let height = if longest > 0.0 { 2.0 * super::area(corners) / longest } else { 0.0 };
+    let height = if longest > 0.0 { 2.0 * area(corners) / longest } else { 0.0 };
     let rows = steps(height);
     let mut points = Vec::new();
     for up in counted(rows).map(|row| row / rows) {

@@ -13,6 +13,10 @@ use std::collections::{BTreeSet, HashMap};
 const NEW_BUMP: f64 = 0.5;
 const NEW_NOTCH: f64 = 0.25;
 const OLD_BUMP: f64 = -0.25;
+/// For a voxel taken off a part one voxel thick: it bares the mesh on both sides, and then the next one would go.
+const THIN: f64 = 1.5;
+/// A part is thin where a voxel has fewer solid neighbours of 26; at the corner of a block it has 7.
+const THIN_BELOW: u32 = 6;
 /// For every lattice edge more at which two sheets touch.
 const TOUCHING_SHEETS: f64 = 0.5;
 
@@ -120,14 +124,15 @@ impl<'a> Moves<'a> {
         let sides = i64::from((around & simple::BY_SIDE).count_ones());
         let change = if solid { 2 * sides - 6 } else { 6 - 2 * sides };
         let Some(place) = CHANGES.iter().position(|other| *other == change) else { return };
+        let (with, without) = (around | 1 << simple::CENTRE, around & !(1 << simple::CENTRE));
         let shape = match change {
+            _ if solid && without.count_ones() < THIN_BELOW => THIN,
             4 => NEW_BUMP,
             2 if solid => NEW_NOTCH,
             -4 => OLD_BUMP,
             _ => 0.0,
         };
         let touching = |around| f64::from(simple::touching_sheets(around));
-        let (with, without) = (around | 1 << simple::CENTRE, around & !(1 << simple::CENTRE));
         let more =
             if solid { touching(without) - touching(with) } else { touching(with) - touching(without) };
         let cost = (self.distance)(self.voxels.at(number)) + shape + TOUCHING_SHEETS * more;
@@ -190,6 +195,20 @@ mod tests {
         let far = |[x, y, z]: Point| if [x, y, z] == [2, 2, 5] { 0.0 } else { 9.0 };
         assert_eq!(edit(&mut voxels, 150, 154, &far), Some(1));
         assert!((0..voxels.len()).any(|number| voxels.solid(number) && voxels.at(number) == [2, 2, 5]));
+    }
+
+    #[test]
+    fn a_needle_keeps_its_length_while_there_is_something_else_to_take() {
+        let mut voxels = block([5, 5, 5]);
+        for z in 5..7 {
+            let tip = voxels.number([2, 2, z]);
+            voxels.set(tip, true);
+        }
+        let panels = voxels.panels();
+        let bump = voxels.number([0, 2, 5]);
+        voxels.set(bump, true);
+        assert_eq!(edit(&mut voxels, panels + 4, panels, &|_| 0.5), Some(1));
+        assert!(!voxels.solid(bump));
     }
 
     #[test]

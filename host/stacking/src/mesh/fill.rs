@@ -4,7 +4,8 @@
 //! triangle is decided edge by edge, for both triangles at an edge by the same arithmetic on the same numbers: so no row
 //! slips between two triangles, wherever it runs, and shells that overlap make one solid.
 
-use super::{Corner, Mesh, Triangle, winding};
+use super::winding::{self, Hole};
+use super::{Corner, Mesh, Triangle};
 use crate::readers::{ModelProblem, VOXEL_LIMIT};
 use crate::voxels::Voxels;
 
@@ -19,7 +20,7 @@ struct Rows {
 }
 
 /// A winding number above this is inside, as its amount: an inside-out mesh bounds the same solid.
-const INSIDE: f64 = 0.5;
+pub(super) const INSIDE: f64 = 0.5;
 
 /// A winding number that is so near to the limit decides nothing for sure.
 const UNSURE: f64 = 0.25;
@@ -39,15 +40,14 @@ pub(super) fn fill(mesh: &Mesh, size: f64) -> Result<Filled, ModelProblem> {
     if !(size.is_finite() && size > 0.0) {
         return Err(ModelProblem::VoxelSize { size });
     }
-    let Mesh { triangles, least, extent, cones, .. } = mesh;
+    let Mesh { triangles, least, extent, holes, .. } = mesh;
     let mut rows = Rows::new(extent.map(|length| length / size))?;
-    let in_voxels =
-        |corners: &Triangle| corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - least[axis]) / size));
+    let cones = holes.iter().flat_map(|hole| &hole.cone);
     for corners in triangles.iter().chain(cones) {
-        rows.cross(in_voxels(corners));
+        rows.cross(corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - least[axis]) / size)));
     }
-    let cones: Vec<Triangle> = cones.iter().map(in_voxels).collect();
-    let Filled { voxels, unsure_share } = rows.filled(&cones);
+    let at = |centre: Corner| [0, 1, 2].map(|axis| least[axis] + centre[axis] * size);
+    let Filled { voxels, unsure_share } = rows.filled(holes, at);
     if voxels.any() {
         Ok(Filled { voxels: voxels.padded(MARGIN), unsure_share })
     } else {
@@ -99,8 +99,9 @@ impl Rows {
         }
     }
 
-    /// The voxels that the mesh winds round; `cones` were added to it to close it, and their share is taken off again.
-    fn filled(mut self, cones: &[Triangle]) -> Filled {
+    /// The voxels that the mesh winds round. Cones over the holes were counted with it, and their share is taken off again;
+    /// `at` says where a centre is in the mesh.
+    fn filled(mut self, holes: &[Hole], at: impl Fn(Corner) -> Corner) -> Filled {
         let [width, depth, _] = self.sides;
         for row in self.rise.chunks_mut(width) {
             let mut winding = 0;
@@ -110,7 +111,7 @@ impl Rows {
             }
         }
         let sides = self.sides.map(|side| i32::try_from(side).unwrap_or(i32::MAX));
-        if cones.is_empty() {
+        if holes.is_empty() {
             let solid = self.rise.iter().map(|winding| *winding != 0).collect();
             return Filled { voxels: Voxels::new(sides, solid), unsure_share: 0.0 };
         }
@@ -119,7 +120,7 @@ impl Rows {
             let centre =
                 [number % width, number / width % depth, number / width / depth].map(|c| c as f64 + 0.5);
             // On the way in along a row the count falls.
-            let winding = (-f64::from(*rise) - winding::number(cones, centre)).abs();
+            let winding = (-f64::from(*rise) - winding::share_of(holes, at(centre))).abs();
             unsure += usize::from((winding - INSIDE).abs() < UNSURE);
             inside += usize::from(winding > INSIDE);
             winding > INSIDE
@@ -144,6 +145,12 @@ fn passes(from: &Corner, to: &Corner, y: f64, z: f64) -> i32 {
         (true, false) => -1,
         (false, _) => 0,
     }
+}
+
+/// Whether the row from a point towards +x passes a triangle: 1 on the way out, -1 on the way in, else 0.
+pub(super) fn passed_beyond(corners: &Triangle, [x, y, z]: Corner) -> i32 {
+    let winding: i32 = (0..3).map(|i| passes(&corners[i], &corners[(i + 1) % 3], y, z)).sum();
+    if winding != 0 && crossing_x(corners, y, z) > x { winding } else { 0 }
 }
 
 /// Where the row at (y, z) meets the plane of a triangle.

@@ -20,6 +20,13 @@ impl<T: PointDistance + RTreeObject<Envelope = AABB<Corner>>> Nearest<T> {
     }
 }
 
+impl Nearest<Facet> {
+    /// The triangles whose boxes meet the line between two points that differ along one axis.
+    pub(super) fn along(&self, [from, to]: [Corner; 2]) -> impl Iterator<Item = &Triangle> {
+        self.tree.locate_in_envelope_intersecting(AABB::from_corners(from, to)).map(|facet| &facet.0)
+    }
+}
+
 /// A triangle of the mesh.
 pub(super) struct Facet(pub(super) Triangle);
 

@@ -30,9 +30,10 @@ pub(super) fn solid(mesh: &Mesh, wanted: usize) -> Result<Solid, ModelProblem> {
     check(wanted)?;
     let mut search = Search { mesh, wanted, kept: Vec::new(), tried: Vec::new(), refused: None };
     search.run()?;
-    let mut nearest = usize::MAX;
+    let Some(nearest) = search.kept.first().map(|best| best.panels.abs_diff(wanted)) else {
+        return Err(search.refused.unwrap_or(ModelProblem::PanelsNotReached { wanted, nearest: wanted }));
+    };
     for Sized { panels, mut solid } in std::mem::take(&mut search.kept) {
-        nearest = nearest.min(panels.abs_diff(wanted));
         let size = solid.voxel_size;
         let distance = |voxel: [i32; 3]| mesh.distance(voxel.map(|c| f64::from(c) + 0.5), size);
         if let Some(voxels) = edit::edit(&mut solid.voxels, panels, wanted, &distance) {
@@ -42,7 +43,7 @@ pub(super) fn solid(mesh: &Mesh, wanted: usize) -> Result<Solid, ModelProblem> {
             return Ok(solid);
         }
     }
-    Err(search.refused.unwrap_or(ModelProblem::PanelsNotReached { wanted, nearest }))
+    Err(ModelProblem::PanelsNotReached { wanted, nearest })
 }
 
 /// Refuses numbers of panels that no solid of voxels has: n voxels with c common sides have 6n - 2c.
@@ -93,10 +94,14 @@ impl Search<'_> {
                     }
                     size = next;
                 }
-                Err(problem @ (ModelProblem::TooCoarse { .. } | ModelProblem::SolidInPieces { .. })) => {
-                    size = rounded(
-                        size * if matches!(problem, ModelProblem::TooCoarse { .. }) { 0.5 } else { ASIDE },
-                    );
+                Err(problem @ ModelProblem::TooCoarse { .. }) => {
+                    // As good as one panel: the size to try is between this one and any that gave a solid.
+                    self.tried.push((size.ln(), (1.0 / self.wanted as f64).ln()));
+                    size = if self.kept.is_empty() { size / 2.0 } else { rounded(self.next().exp()) };
+                    self.refused = Some(problem);
+                }
+                Err(problem @ ModelProblem::SolidInPieces { .. }) => {
+                    size = rounded(size * ASIDE);
                     self.refused = Some(problem);
                 }
                 Err(problem) => return Err(problem),
@@ -128,7 +133,7 @@ impl Search<'_> {
             (Some((fine, more)), Some((coarse, less))) => {
                 let share = more / (more - less);
                 // Counts jump where sides of the shape lie along the lattice: then halving is quicker.
-                let share = if self.tried.len() % 3 == 0 { 0.5 } else { share.clamp(0.1, 0.9) };
+                let share = if self.tried.len().is_multiple_of(3) { 0.5 } else { share.clamp(0.1, 0.9) };
                 fine + share * (coarse - fine)
             }
             (Some((size, excess)), None) | (None, Some((size, excess))) => size + excess / 2.0,

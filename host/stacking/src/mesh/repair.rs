@@ -1,6 +1,6 @@
 //! The test that a mesh is closed, and the repairs that cannot change what it bounds at the scale of a voxel.
 
-use super::winding::{self, Open};
+use super::winding::{self, Hole, Open};
 use super::{Corner, Triangle, area, cross, dot, minus, orient};
 use crate::readers::ModelProblem;
 use std::collections::{BTreeMap, HashMap};
@@ -47,6 +47,11 @@ pub enum Repair {
         /// The voxels in them.
         voxels: usize,
     },
+    /// Parts without a voxel's centre inside, which would be missing.
+    Thickened {
+        /// The voxels put there.
+        voxels: usize,
+    },
     /// Pieces that hang together by parts thinner than a voxel.
     Joined {
         /// How many.
@@ -87,6 +92,9 @@ impl fmt::Display for Repair {
             Self::Closed { holes, edges } => write!(f, "closed {holes} small holes of {edges} edges in all"),
             Self::Filled { cavities, voxels } => {
                 write!(f, "filled {cavities} cavities ({voxels} voxels) that can't be seen from outside")
+            }
+            Self::Thickened { voxels } => {
+                write!(f, "put {voxels} voxels where parts of the mesh are too thin for a voxel's centre")
             }
             Self::Joined { pieces, voxels } => {
                 write!(f, "joined {pieces} pieces by {voxels} voxels where the mesh is thinner than a voxel")
@@ -130,8 +138,8 @@ pub(super) struct Repaired {
 pub(super) struct Rest {
     /// How many edges.
     pub(super) edges: usize,
-    /// Triangles that would close the mesh.
-    pub(super) cones: Vec<Triangle>,
+    /// The holes that they surround.
+    pub(super) holes: Vec<Hole>,
     /// What to say if inside and outside can't be told apart so.
     pub(super) refusal: ModelProblem,
 }
@@ -187,8 +195,8 @@ pub(super) fn closed(triangles: Vec<Triangle>) -> Result<Repaired, ModelProblem>
     } else {
         let open: Vec<Open> =
             loose.iter().map(|edge| Open { ends: edge.ends, excess: edge.excess }).collect();
-        let cones = winding::cones(&open, &mesh.corners);
-        rest = Some(Rest { edges: loose.len(), cones, refusal: mesh.not_closed(&loose) });
+        let holes = winding::holes(&open, &mesh.corners);
+        rest = Some(Rest { edges: loose.len(), holes, refusal: mesh.not_closed(&loose) });
     }
     let triangles = mesh.triangles.iter().map(|triangle| mesh.at(triangle)).collect();
     Ok(Repaired { triangles, repairs, rest })

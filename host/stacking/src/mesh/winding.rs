@@ -12,6 +12,9 @@ use std::f64::consts::PI;
 /// Tips are moved by these shares of their cone's size, so that no cone is flat: a centre on it would be on neither side.
 const TIP_SHIFT: Corner = [0.009_013, 0.007_071, 0.011_547];
 
+/// From so many radii away on, a cone's share is below 1/60 and taken from its normal alone, right to a hundredth of a turn.
+const AFAR: f64 = 4.0;
+
 /// An edge that the triangles of a mesh pass more often one way than the other.
 pub(super) struct Open {
     /// As the triangles that are too many pass it.
@@ -20,8 +23,17 @@ pub(super) struct Open {
     pub(super) excess: usize,
 }
 
-/// Triangles that close a mesh: a cone over each group of open edges that hang together.
-pub(super) fn cones(open: &[Open], corners: &[Corner]) -> Vec<Triangle> {
+/// Open edges that hang together, closed by a cone.
+pub(super) struct Hole {
+    pub(super) cone: Vec<Triangle>,
+    middle: Corner,
+    radius: f64,
+    /// The normals of the cone's triangles, each as long as its area, in all.
+    normal: Corner,
+}
+
+/// Closes a mesh: a cone over each group of open edges that hang together.
+pub(super) fn holes(open: &[Open], corners: &[Corner]) -> Vec<Hole> {
     let mut group: BTreeMap<usize, usize> =
         open.iter().flat_map(|edge| edge.ends).map(|end| (end, end)).collect();
     for Open { ends: [a, b], .. } in open {
@@ -32,14 +44,39 @@ pub(super) fn cones(open: &[Open], corners: &[Corner]) -> Vec<Triangle> {
     for &end in group.keys() {
         members.entry(root(&group, end)).or_default().push(end);
     }
-    let tips: BTreeMap<usize, Corner> =
-        members.into_iter().map(|(group, ends)| (group, tip(&ends, corners))).collect();
-    let mut cones = Vec::new();
-    for Open { ends: [from, to], excess } in open {
-        let Some(tip) = tips.get(&root(&group, *from)) else { continue };
-        cones.extend(std::iter::repeat_n([corners[*to], corners[*from], *tip], *excess));
+    let mut holes: BTreeMap<usize, Hole> = BTreeMap::new();
+    for (group, ends) in members {
+        let at = || ends.iter().map(|end| corners[*end]);
+        let middle = [0, 1, 2].map(|axis| at().map(|corner| corner[axis]).sum::<f64>() / ends.len() as f64);
+        let radius =
+            at().map(|corner| dot(minus(corner, middle), minus(corner, middle))).fold(0.0, f64::max).sqrt();
+        holes.insert(group, Hole { cone: Vec::new(), middle, radius, normal: [0.0; 3] });
     }
-    cones
+    for Open { ends: [from, to], excess } in open {
+        let Some(hole) = holes.get_mut(&root(&group, *from)) else { continue };
+        let tip = [0, 1, 2].map(|axis| hole.middle[axis] + hole.radius * TIP_SHIFT[axis]);
+        let [a, b, c] = [corners[*to], corners[*from], tip];
+        let part = cross(minus(b, a), minus(c, a));
+        for _ in 0..*excess {
+            hole.normal = [0, 1, 2].map(|axis| hole.normal[axis] + part[axis] / 2.0);
+            hole.cone.push([a, b, c]);
+        }
+    }
+    holes.into_values().collect()
+}
+
+/// How often the cones over all holes wind round a point. From afar a cone is as good as a small flat patch.
+pub(super) fn share_of(holes: &[Hole], point: Corner) -> f64 {
+    let share = |hole: &Hole| {
+        let way = minus(hole.middle, point);
+        let distance = dot(way, way).sqrt();
+        if distance > AFAR * hole.radius {
+            dot(hole.normal, way) / (4.0 * PI * distance.powi(3))
+        } else {
+            number(&hole.cone, point)
+        }
+    };
+    holes.iter().map(share).sum()
 }
 
 fn root(group: &BTreeMap<usize, usize>, mut end: usize) -> usize {
@@ -49,18 +86,9 @@ fn root(group: &BTreeMap<usize, usize>, mut end: usize) -> usize {
     end
 }
 
-/// A point near the middle of some corners.
-fn tip(ends: &[usize], corners: &[Corner]) -> Corner {
-    let at = || ends.iter().map(|end| corners[*end]);
-    let middle = [0, 1, 2].map(|axis| at().map(|corner| corner[axis]).sum::<f64>() / ends.len() as f64);
-    let size =
-        at().map(|corner| dot(minus(corner, middle), minus(corner, middle))).fold(0.0, f64::max).sqrt();
-    [0, 1, 2].map(|axis| middle[axis] + size * TIP_SHIFT[axis])
-}
-
 /// How often triangles wind round a point, counter-clockwise from outside: each by its solid angle (van Oosterom, Strackee,
 /// *The solid angle of a plane triangle*, 1983).
-pub(super) fn number(triangles: &[Triangle], point: Corner) -> f64 {
+fn number(triangles: &[Triangle], point: Corner) -> f64 {
     let angle = |corners: &Triangle| {
         let [a, b, c] = corners.map(|corner| minus(corner, point));
         let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
@@ -91,14 +119,16 @@ mod tests {
     #[test]
     fn a_cone_closes_a_mesh_that_lacks_a_triangle() {
         let mut mesh = tetrahedron();
-        let [a, b, c] = mesh.remove(0);
-        let at = |corner: Corner| CORNERS.iter().position(|other| *other == corner).unwrap();
-        let open: Vec<Open> =
-            [[b, a], [c, b], [a, c]].into_iter().map(|ends| Open { ends: ends.map(at), excess: 1 }).collect();
-        let cones = cones(&open, &CORNERS);
-        assert_eq!(cones.len(), 3);
-        mesh.extend(cones);
+        mesh.remove(0);
+        // It was 0, 2, 1; its neighbours pass the edges the other way.
+        let open = [[2, 0], [1, 2], [0, 1]].map(|ends| Open { ends, excess: 1 });
+        let holes = holes(&open, &CORNERS);
+        assert_eq!(holes.len(), 1);
+        mesh.extend(&holes[0].cone);
         assert!((number(&mesh, [0.2, 0.2, 0.2]) - 1.0).abs() < 1e-12);
         assert!(number(&mesh, [0.5, 0.5, 0.5]).abs() < 1e-12);
+        for far in [[0.3, 4.0, 2.0], [-3.0, 1.0, 1.0], [0.3, 0.3, -5.0]] {
+            assert!((share_of(&holes, far) - number(&holes[0].cone, far)).abs() < 0.002, "{far:?}");
+        }
     }
 }

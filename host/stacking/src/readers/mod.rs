@@ -139,15 +139,11 @@ fn read(path: &Path, resolution: Option<Resolution>) -> Result<Model, ModelProbl
         Format::Gltf => gltf::read(&bytes(path)?)?,
     };
     let mesh = Mesh::new(triangles)?;
-    let Solid { voxels, voxel_size, repairs } = mesh.solid(resolution)?;
-    let surface = Surface::new(voxels.boundary(), Vec::new())?;
-    let distance = mesh.distance_of(surface.quads(), voxel_size);
-    Ok(Model {
-        voxel_size: Some(voxel_size),
-        distance: Some(distance),
-        repairs,
-        ..Model::new(name, surface)?
-    })
+    let solid = mesh.solid(resolution)?;
+    let surface = Surface::new(solid.voxels.boundary(), Vec::new())?;
+    let distance = Some(mesh.distance_of(&solid, surface.quads()));
+    let Solid { voxel_size, repairs, .. } = solid;
+    Ok(Model { voxel_size: Some(voxel_size), distance, repairs, ..Model::new(name, surface)? })
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, ModelProblem> {
