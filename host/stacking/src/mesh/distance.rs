@@ -104,7 +104,7 @@ pub(super) fn measure(mesh: &Mesh, solid: &Solid, panels: &[Quad]) -> Distance {
     }
 }
 
-/// Points on a triangle at most so far apart, its corners among them: in rows along its longest side.
+/// Points on a triangle at most so far apart: the middle of a small one, of others rows along the longest side, with the corners.
 pub(super) fn points_on(corners: &Triangle, spacing: f64) -> Vec<Corner> {
     let length = |side: usize| {
         let way = minus(corners[(side + 1) % 3], corners[side]);
@@ -113,9 +113,11 @@ pub(super) fn points_on(corners: &Triangle, spacing: f64) -> Vec<Corner> {
     let first = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b))).unwrap_or(0);
     let [a, b, c] = [0, 1, 2].map(|place| corners[(first + place) % 3]);
     let longest = length(first);
+    if longest <= spacing {
+        return vec![[0, 1, 2].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0)];
+    }
     let steps = |length: f64| (length / spacing).ceil().clamp(1.0, POINTS);
-    let height = if longest > 0.0 { 2.0 * area(corners) / longest } else { 0.0 };
-    let rows = steps(height);
+    let rows = steps(2.0 * area(corners) / longest);
     let mut points = Vec::new();
     for up in counted(rows).map(|row| row / rows) {
         let on_row = if up < 1.0 { steps((1.0 - up) * longest) } else { 1.0 };

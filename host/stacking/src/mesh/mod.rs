@@ -31,7 +31,7 @@ pub(crate) type Corner = [f64; 3];
 pub(crate) type Triangle = [Corner; 3];
 
 /// Of a mesh with open edges, voxels that may as well be on the other side are at most this share of those inside.
-const UNSURE_SHARE: f64 = 0.2;
+const UNSURE_SHARE: f64 = 0.12;
 
 /// That share is judged with so many voxels along the longest side of the box, whatever the size asked for.
 const JUDGED_AT: f64 = 24.0;
