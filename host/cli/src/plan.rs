@@ -12,8 +12,8 @@ use zygote_stacking::{
 /// Arguments of `zygote plan`.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// The shape: voxels (.txt, .vox), a quad mesh on the integer lattice (.obj), or with --voxel a closed
-    /// mesh (.stl, .obj, .ply, .off, .gltf, .glb)
+    /// The shape: voxels (.txt, .vox), a quad mesh on the integer lattice (.obj), or with --voxel or --panels a
+    /// closed mesh (.stl, .obj, .ply, .off, .gltf, .glb)
     model: PathBuf,
     /// Number of piles; it divides the number of panels
     #[arg(long, value_name = "K", default_value_t = 1)]
@@ -24,6 +24,9 @@ pub(crate) struct Arguments {
     /// Cut a mesh into voxels of this edge, in units of the mesh
     #[arg(long, value_name = "SIZE")]
     voxel: Option<f64>,
+    /// Cut a mesh into voxels so that it has exactly so many panels
+    #[arg(long, value_name = "N", conflicts_with = "voxel")]
+    panels: Option<usize>,
     /// The panel that stays fixed [default: the middle of the tree path]
     #[arg(long, value_name = "PANEL")]
     root: Option<usize>,
@@ -75,9 +78,16 @@ fn grid(text: &str) -> Result<[usize; 2], String> {
 
 /// Plans, checks the plan as it will stand in the file, and writes it.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let model = Model::read(&arguments.model, arguments.voxel.map(Resolution::Voxel)).or_bad_input()?;
+    let resolution = arguments.voxel.map(Resolution::Voxel).or(arguments.panels.map(Resolution::Panels));
+    let model = Model::read(&arguments.model, resolution).or_bad_input()?;
     for repair in model.repairs() {
         say(format_args!("{}: {repair}", arguments.model.display()));
+    }
+    if let (Some(size), Some(distance)) = (model.voxel_size(), model.distance()) {
+        say(format_args!(
+            "{}: voxels of {size}; distance to the mesh: {distance}",
+            arguments.model.display()
+        ));
     }
     let request = Request {
         piles: arguments.piles,

@@ -36,6 +36,17 @@ fn a_closed_mesh_is_cut_into_voxels_of_the_size_given() {
     assert!(run.output.contains("N = 280 panels"), "{}", run.output);
 }
 
+#[test]
+fn a_closed_mesh_is_cut_into_the_number_of_panels_given_and_its_distance_told() {
+    let place = Scratch::new("plan_panels");
+    let run =
+        place.zygote(&["plan", &model("bird.obj"), "--panels", "1000", "--piles", "4", "-o", "bird.fold"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("N = 1000 panels, K = 4 piles"), "{}", run.output);
+    assert!(run.output.contains("distance to the mesh: Hausdorff"), "{}", run.output);
+    assert!(place.read("bird.fold").contains("\"hausdorff_voxels\":"));
+}
+
 /// Runs `zygote plan` on something that can't be planned; the message goes to standard error, and no file is left.
 #[track_caller]
 fn assert_refused(name: &str, options: &[&str], code: i32, told: &[&str]) {
@@ -108,11 +119,12 @@ fn a_mesh_with_a_hole_is_refused_with_the_number_of_open_edges() {
         2,
         &["4 open edges", "the first from (0, 3, 0) to (0, 3, 2)"],
     );
+    assert_refused("bad/bowl.obj", &["--panels", "1000"], 2, &["16 open edges", "close its holes"]);
     assert_refused(
-        "bad/turned.stl",
+        "bad/moebius.off",
         &["--voxel", "1"],
         2,
-        &["3 edges between triangles of unlike orientation"],
+        &["edges between triangles of unlike orientation; the first from ("],
     );
 }
 
@@ -123,6 +135,19 @@ fn a_voxel_size_is_needed_for_a_mesh_and_only_for_a_mesh() {
     assert_refused("house.stl", &["--voxel", "100"], 2, &["no voxel of size 100", "4 x 3 x 4"]);
     assert_refused("house.stl", &["--voxel", "1e-6"], 2, &["voxels in the box, expected at most"]);
     assert_refused("i14.txt", &["--voxel", "1"], 2, &["for meshes only: this format has voxels already"]);
+    assert_refused("i14.txt", &["--panels", "20"], 2, &["for meshes only: this format has voxels already"]);
+}
+
+#[test]
+fn a_number_of_panels_that_no_solid_has_is_refused_with_the_nearest() {
+    assert_refused("house.stl", &["--panels", "999"], 2, &["999 panels", "the nearest", "998 and 1000"]);
+    assert_refused("house.stl", &["--panels", "8"], 2, &["8 panels", "6 and 10"]);
+    assert_refused("house.stl", &["--panels", "0"], 2, &["0 panels", "one has: 6"]);
+    let place = Scratch::new("plan_panels_and_voxel");
+    let both = ["plan", &model("house.stl"), "--panels", "100", "--voxel", "1", "-o", "out.fold"];
+    let run = place.zygote(&both);
+    assert_eq!(run.code, 2, "{}", run.errors);
+    assert!(place.files().is_empty());
 }
 
 #[test]

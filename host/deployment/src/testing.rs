@@ -3,7 +3,14 @@
 use zygote_stacking::{Hinge, HingeKind, Model, Pile, Plan, Request, Side, Source, Surface};
 
 fn source() -> Source {
-    Source { model: "by hand".into(), voxel_size: None, bounds: [1, 1, 1], seed: 0, program: "test".into() }
+    Source {
+        model: "by hand".into(),
+        voxel_size: None,
+        distance: None,
+        bounds: [1, 1, 1],
+        seed: 0,
+        program: "test".into(),
+    }
 }
 
 /// A plan of which only the tree counts: panel `i + 1` hangs on panel `parents[i]`, which is at most `i`. Its

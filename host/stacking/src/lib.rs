@@ -42,7 +42,7 @@ pub use by_parts::NoMatch;
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use cut_edges::CutEdge;
 pub use hamiltonian::NoStrip;
-pub use mesh::Repair;
+pub use mesh::{Distance, Repair};
 pub use net::{Net, Overlaps};
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{Bridges, Partition, PlanError, Request, plan};

@@ -1,6 +1,8 @@
 //! The plan: panels, piles and hinges of one zygote and its target, as every other crate sees them.
 //! `fold` reads and writes it as a `.fold` file; `check` holds the rules.
 
+use crate::mesh::Distance;
+
 /// A side of a cell of the grid of piles, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
@@ -96,6 +98,9 @@ pub struct Source {
     /// Edge of a voxel in units of the mesh, where a mesh was voxelised.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub voxel_size: Option<f64>,
+    /// How far the target is from that mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance: Option<Distance>,
     /// Sides of the target's box, in panel lengths.
     #[serde(rename = "box")]
     pub bounds: [i32; 3],

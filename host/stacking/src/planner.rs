@@ -216,6 +216,7 @@ fn into_plan(found: Bridged, model: &Model, request: &Request) -> Plan {
         source: Source {
             model: model.name.clone(),
             voxel_size: model.voxel_size,
+            distance: model.distance,
             bounds: model.surface.bounds(),
             seed: request.seed,
             program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),

@@ -89,6 +89,14 @@ impl Voxels {
         })
     }
 
+    /// How many squares lie between solid and empty. The outermost layer of the box is empty.
+    pub(crate) fn panels(&self) -> usize {
+        let steps = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|step| self.stride(step).unsigned_abs());
+        let changes =
+            |step: usize| self.solid.iter().zip(&self.solid[step..]).filter(|(a, b)| a != b).count();
+        steps.into_iter().map(changes).sum()
+    }
+
     /// The squares between solid and empty, outer side out.
     pub(crate) fn boundary(&self) -> Vec<Quad> {
         let [width, depth, _] = self.sides.map(|c| usize::try_from(c).unwrap_or(0));
@@ -115,7 +123,7 @@ impl Voxels {
     }
 
     /// The voxel's number; the voxel is in the box.
-    fn number(&self, at: Point) -> usize {
+    pub(crate) fn number(&self, at: Point) -> usize {
         let [x, y, z] = [0, 1, 2].map(|axis| usize::try_from(at[axis] - self.least[axis]).unwrap_or(0));
         let [width, depth, _] = self.sides.map(|c| usize::try_from(c).unwrap_or(0));
         (z * depth + y) * width + x
@@ -147,6 +155,7 @@ mod tests {
         let voxels = Voxels::new([2, 2, 1], vec![true, true, false, true]);
         let wide = voxels.padded(2);
         assert_eq!(wide.boundary(), voxels.boundary());
+        assert_eq!(wide.panels(), voxels.boundary().len());
         assert_eq!(wide.len(), 6 * 6 * 5);
         assert!((0..wide.len()).all(|number| !wide.solid(number) || !wide.is_rim(number)));
     }

@@ -155,7 +155,7 @@ fn a_neck_thinner_than_a_voxel_is_bridged_and_told() {
     let (left, right) = (([0.0; 3], [3.0; 3]), ([6.0, 0.0, 0.0], [9.0, 3.0, 3.0]));
     let neck = ([2.5, 1.3, 1.3], [6.5, 1.45, 1.45]);
     let model = read("neck.obj", obj(&boxes(&[left, right, neck])).as_bytes(), 1.0).unwrap();
-    assert_eq!(model.repairs(), [Repair::Joined { pieces: 1, voxels: 3 }]);
+    assert_eq!(model.repairs(), [Repair::Thickened { voxels: 3 }]);
     assert_eq!(model.surface().len(), 2 * 54 + 3 * 4 - 2);
 }
 

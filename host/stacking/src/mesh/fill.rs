@@ -4,6 +4,7 @@
 //! triangle is decided edge by edge, for both triangles at an edge by the same arithmetic on the same numbers: so no row
 //! slips between two triangles, wherever it runs, and shells that overlap make one solid.
 
+use super::winding::{self, Hole};
 use super::{Corner, Mesh, Triangle};
 use crate::readers::{ModelProblem, VOXEL_LIMIT};
 use crate::voxels::Voxels;
@@ -18,22 +19,37 @@ struct Rows {
     rise: Vec<i32>,
 }
 
+/// A winding number above this is inside, as its amount: an inside-out mesh bounds the same solid.
+pub(super) const INSIDE: f64 = 0.5;
+
+/// A winding number that is so near to the limit decides nothing for sure.
+const UNSURE: f64 = 0.25;
+
+/// Voxels whose centres are inside.
+pub(super) struct Filled {
+    pub(super) voxels: Voxels,
+    /// Of a mesh with open edges: voxels whose centre may as well be on the other side, over voxels inside.
+    pub(super) unsure_share: f64,
+}
+
 /// Fills the mesh with voxels of a given edge, the first one in the least corner of the mesh's box.
 ///
 /// # Errors
 /// A size that is no length, more voxels than fit, or no centre inside.
-pub(super) fn fill(mesh: &Mesh, size: f64) -> Result<Voxels, ModelProblem> {
+pub(super) fn fill(mesh: &Mesh, size: f64) -> Result<Filled, ModelProblem> {
     if !(size.is_finite() && size > 0.0) {
         return Err(ModelProblem::VoxelSize { size });
     }
-    let Mesh { triangles, least, extent, .. } = mesh;
+    let Mesh { triangles, least, extent, holes, .. } = mesh;
     let mut rows = Rows::new(extent.map(|length| length / size))?;
-    for corners in triangles {
+    let cones = holes.iter().flat_map(|hole| &hole.cone);
+    for corners in triangles.iter().chain(cones) {
         rows.cross(corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - least[axis]) / size)));
     }
-    let voxels = rows.voxels();
+    let at = |centre: Corner| [0, 1, 2].map(|axis| least[axis] + centre[axis] * size);
+    let Filled { voxels, unsure_share } = rows.filled(holes, at);
     if voxels.any() {
-        Ok(voxels.padded(MARGIN))
+        Ok(Filled { voxels: voxels.padded(MARGIN), unsure_share })
     } else {
         let [x, y, z] = extent;
         Err(ModelProblem::TooCoarse { size, bounds: format!("{x} x {y} x {z}") })
@@ -83,17 +99,34 @@ impl Rows {
         }
     }
 
-    fn voxels(self) -> Voxels {
-        let width = self.sides[0];
-        let solid = self.rise.chunks(width).flat_map(|row| {
-            row.iter().scan(0, |winding, rise| {
-                *winding += rise;
-                Some(*winding != 0)
-            })
-        });
-        let solid = solid.collect();
+    /// The voxels that the mesh winds round. Cones over the holes were counted with it, and their share is taken off again;
+    /// `at` says where a centre is in the mesh.
+    fn filled(mut self, holes: &[Hole], at: impl Fn(Corner) -> Corner) -> Filled {
+        let [width, depth, _] = self.sides;
+        for row in self.rise.chunks_mut(width) {
+            let mut winding = 0;
+            for rise in row {
+                winding += *rise;
+                *rise = winding;
+            }
+        }
         let sides = self.sides.map(|side| i32::try_from(side).unwrap_or(i32::MAX));
-        Voxels::new(sides, solid)
+        if holes.is_empty() {
+            let solid = self.rise.iter().map(|winding| *winding != 0).collect();
+            return Filled { voxels: Voxels::new(sides, solid), unsure_share: 0.0 };
+        }
+        let (mut inside, mut unsure) = (0_usize, 0_usize);
+        let solid = self.rise.iter().enumerate().map(|(number, rise)| {
+            let centre =
+                [number % width, number / width % depth, number / width / depth].map(|c| c as f64 + 0.5);
+            // On the way in along a row the count falls.
+            let winding = (-f64::from(*rise) - winding::share_of(holes, at(centre))).abs();
+            unsure += usize::from((winding - INSIDE).abs() < UNSURE);
+            inside += usize::from(winding > INSIDE);
+            winding > INSIDE
+        });
+        let voxels = Voxels::new(sides, solid.collect());
+        Filled { voxels, unsure_share: unsure as f64 / inside.max(1) as f64 }
     }
 }
 
@@ -112,6 +145,12 @@ fn passes(from: &Corner, to: &Corner, y: f64, z: f64) -> i32 {
         (true, false) => -1,
         (false, _) => 0,
     }
+}
+
+/// Whether the row from a point towards +x passes a triangle: 1 on the way out, -1 on the way in, else 0.
+pub(super) fn passed_beyond(corners: &Triangle, [x, y, z]: Corner) -> i32 {
+    let winding: i32 = (0..3).map(|i| passes(&corners[i], &corners[(i + 1) % 3], y, z)).sum();
+    if winding != 0 && crossing_x(corners, y, z) > x { winding } else { 0 }
 }
 
 /// Where the row at (y, z) meets the plane of a triangle.
@@ -140,7 +179,7 @@ mod tests {
     }
 
     fn fill(triangles: Vec<Triangle>, size: f64) -> Result<Voxels, ModelProblem> {
-        super::fill(&Mesh::new(triangles)?, size)
+        Ok(super::fill(&Mesh::new(triangles)?, size)?.voxels)
     }
 
     #[test]

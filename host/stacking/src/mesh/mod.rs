@@ -1,15 +1,28 @@
-//! Closed triangle meshes and the voxels that stand for them: repair, filling, one piece, distance. The readers call it.
+//! Triangle meshes and the voxels that stand for them: repair, filling, one piece, number of panels, distance. The readers
+//! call it.
 
+mod distance;
+mod edit;
 mod fill;
 mod nearest;
 mod one_piece;
+mod orient;
+mod panels;
 mod repair;
+mod simple;
+mod thin;
+mod winding;
 
+pub use distance::Distance;
 pub use repair::Repair;
 
-use crate::readers::ModelProblem;
+use crate::readers::{ModelProblem, Resolution};
+use crate::square::Quad;
 use crate::voxels::Voxels;
+use fill::Filled;
 use nearest::{Facet, Nearest};
+use repair::{Repaired, Rest};
+use winding::Hole;
 
 /// A corner, in units of the mesh.
 pub(crate) type Corner = [f64; 3];
@@ -17,7 +30,13 @@ pub(crate) type Corner = [f64; 3];
 /// Three corners, counter-clockwise from outside.
 pub(crate) type Triangle = [Corner; 3];
 
-/// A closed mesh, and what was done to it so far.
+/// Of a mesh with open edges, voxels that may as well be on the other side are at most this share of those inside.
+const UNSURE_SHARE: f64 = 0.12;
+
+/// That share is judged with so many voxels along the longest side of the box, whatever the size asked for.
+const JUDGED_AT: f64 = 24.0;
+
+/// A mesh that bounds a solid, and what was done to it so far.
 pub(crate) struct Mesh {
     triangles: Vec<Triangle>,
     /// The least corner of the mesh's box.
@@ -26,6 +45,9 @@ pub(crate) struct Mesh {
     extent: Corner,
     nearest: Nearest<Facet>,
     repairs: Vec<Repair>,
+    /// Edges that stay open, and the holes that they surround.
+    open_edges: usize,
+    holes: Vec<Hole>,
 }
 
 /// A mesh as voxels.
@@ -36,27 +58,77 @@ pub(crate) struct Solid {
     pub(crate) repairs: Vec<Repair>,
 }
 
+impl Solid {
+    /// Whether a point is in a solid voxel; the point is given in voxels from the least corner of the mesh's box.
+    fn holds(&self, point: Corner) -> bool {
+        #[expect(clippy::cast_possible_truncation, reason = "within the box, whose sides are small numbers")]
+        let voxel = point.map(|c| c.floor() as i32);
+        self.voxels.solid(self.voxels.number(voxel))
+    }
+}
+
 impl Mesh {
     /// Takes the triangles of a mesh, repaired where that is safe.
     ///
     /// # Errors
-    /// Coordinates that are no numbers, a mesh that is not closed.
+    /// Coordinates that are no numbers, a mesh that is not closed and doesn't tell inside from outside.
     pub(crate) fn new(triangles: Vec<Triangle>) -> Result<Self, ModelProblem> {
-        let (triangles, repairs) = repair::closed(triangles)?;
+        let Repaired { triangles, repairs, rest } = repair::closed(triangles)?;
         let all = |axis: usize| triangles.iter().flatten().map(move |corner| corner[axis]);
         let least = [0, 1, 2].map(|axis| all(axis).fold(f64::INFINITY, f64::min));
         let extent = [0, 1, 2].map(|axis| all(axis).fold(f64::NEG_INFINITY, f64::max) - least[axis]);
         let nearest = Nearest::new(triangles.iter().copied().map(Facet).collect());
-        Ok(Self { triangles, least, extent, nearest, repairs })
+        let mut mesh = Self { triangles, least, extent, nearest, repairs, open_edges: 0, holes: Vec::new() };
+        if let Some(Rest { edges, holes, refusal }) = rest {
+            (mesh.open_edges, mesh.holes) = (edges, holes);
+            let longest = extent.into_iter().fold(0.0, f64::max);
+            match fill::fill(&mesh, longest / JUDGED_AT) {
+                Ok(filled) if filled.unsure_share <= UNSURE_SHARE => {}
+                Ok(filled) => {
+                    let (percent, most) = (percent(filled.unsure_share), percent(UNSURE_SHARE));
+                    return Err(ModelProblem::Undecided { open: Box::new(refusal), percent, most });
+                }
+                Err(_) => return Err(refusal),
+            }
+        }
+        Ok(mesh)
     }
 
-    /// The voxels of a given size, in one piece and without cavities; the first one in the least corner of the mesh's box.
+    /// The voxels of a solid at a given resolution; the box's first voxel is in the least corner of the mesh's box.
     ///
     /// # Errors
-    /// A size that is no length, more voxels than fit, no centre inside, pieces that are no crumbs.
-    pub(crate) fn solid(&self, voxel_size: f64) -> Result<Solid, ModelProblem> {
-        let mut voxels = fill::fill(self, voxel_size)?;
+    /// A size that is no length, a number of panels that can't be, more voxels than fit, no centre inside, pieces that are
+    /// no crumbs.
+    pub(crate) fn solid(&self, resolution: Resolution) -> Result<Solid, ModelProblem> {
+        match resolution {
+            Resolution::Voxel(size) => self.solid_of(size),
+            Resolution::Panels(wanted) => panels::solid(self, wanted),
+        }
+    }
+
+    /// How far a surface of panels is from the mesh.
+    pub(crate) fn distance_of(&self, solid: &Solid, panels: &[Quad]) -> Distance {
+        distance::measure(self, solid, panels)
+    }
+
+    /// The voxels of a given size, in one piece and without cavities.
+    fn solid_of(&self, voxel_size: f64) -> Result<Solid, ModelProblem> {
+        let Filled { voxels, unsure_share } = fill::fill(self, voxel_size)?;
         let mut repairs = self.repairs.clone();
+        if !self.holes.is_empty() {
+            repairs.push(Repair::Wound { edges: self.open_edges, unsure_percent: percent(unsure_share) });
+        }
+        let mut thick = voxels.clone();
+        let put = thin::thicken(&mut thick, self, voxel_size);
+        if put > 0
+            && let Ok(more) = one_piece::make(&mut thick, self, voxel_size)
+        {
+            repairs.push(Repair::Thickened { voxels: put });
+            repairs.extend(more);
+            return Ok(Solid { voxels: thick, voxel_size, repairs });
+        }
+        // Nothing is thin, or something thin hangs on nothing and can only be left out.
+        let mut voxels = voxels;
         repairs.extend(one_piece::make(&mut voxels, self, voxel_size)?);
         Ok(Solid { voxels, voxel_size, repairs })
     }
@@ -66,6 +138,39 @@ impl Mesh {
         let point = [0, 1, 2].map(|axis| self.least[axis] + point[axis] * voxel_size);
         self.nearest.distance(point) / voxel_size
     }
+
+    /// The triangles in voxels from the least corner of the mesh's box.
+    fn in_voxels(&self, voxel_size: f64) -> impl Iterator<Item = Triangle> {
+        self.triangles.iter().map(move |triangle| {
+            triangle.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - self.least[axis]) / voxel_size))
+        })
+    }
+
+    /// Whether the mesh winds round a point, given in units of the mesh.
+    fn is_inside(&self, point: Corner) -> bool {
+        // A row from the point to beyond the box meets few of the triangles.
+        let end = self.least[0] + 2.0 * self.extent[0] + 1.0;
+        let row = self.nearest.along([point, [end, point[1], point[2]]]);
+        let cones = self.holes.iter().flat_map(|hole| &hole.cone);
+        let winding: i32 = row.chain(cones).map(|corners| fill::passed_beyond(corners, point)).sum();
+        let open = winding::share_of(&self.holes, point);
+        (f64::from(winding) - open).abs() > fill::INSIDE
+    }
+
+    fn area(&self) -> f64 {
+        self.triangles.iter().map(area).sum()
+    }
+}
+
+/// A share in percent, rounded up.
+fn percent(share: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of voxels, not negative"
+    )]
+    let percent = (100.0 * share).ceil() as usize;
+    percent
 }
 
 /// The vector from one corner to another.
@@ -79,6 +184,13 @@ fn cross(u: Corner, v: Corner) -> Corner {
 
 fn dot(u: Corner, v: Corner) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+}
+
+/// The direction in which a triangle looks, of length 1; none has one without an area.
+fn normal(&[a, b, c]: &Triangle) -> Option<Corner> {
+    let normal = cross(minus(b, a), minus(c, a));
+    let length = dot(normal, normal).sqrt();
+    (length > 0.0).then(|| normal.map(|c| c / length))
 }
 
 /// The area of a triangle.

@@ -1,6 +1,7 @@
 //! The nearest one of many triangles or squares, found in a tree of boxes.
 
 use super::{Corner, Triangle, cross, dot, minus};
+use crate::square::Quad;
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 /// A set of shapes that knows how far a point is from it.
@@ -16,6 +17,13 @@ impl<T: PointDistance + RTreeObject<Envelope = AABB<Corner>>> Nearest<T> {
     /// The distance to the nearest shape; infinite where there is none.
     pub(super) fn distance(&self, point: Corner) -> f64 {
         self.tree.nearest_neighbor(point).map_or(f64::INFINITY, |shape| shape.distance_2(&point).sqrt())
+    }
+}
+
+impl Nearest<Facet> {
+    /// The triangles whose boxes meet the line between two points that differ along one axis.
+    pub(super) fn along(&self, [from, to]: [Corner; 2]) -> impl Iterator<Item = &Triangle> {
+        self.tree.locate_in_envelope_intersecting(AABB::from_corners(from, to)).map(|facet| &facet.0)
     }
 }
 
@@ -46,6 +54,36 @@ impl PointDistance for Facet {
     }
 }
 
+/// A panel: a square whose sides run along the axes.
+pub(super) struct Square {
+    least: Corner,
+    greatest: Corner,
+}
+
+impl Square {
+    pub(super) fn of(quad: &Quad) -> Self {
+        let all = |axis: usize| quad.iter().map(move |corner| f64::from(corner[axis]));
+        let least = [0, 1, 2].map(|axis| all(axis).fold(f64::INFINITY, f64::min));
+        Self { least, greatest: [0, 1, 2].map(|axis| all(axis).fold(f64::NEG_INFINITY, f64::max)) }
+    }
+}
+
+impl RTreeObject for Square {
+    type Envelope = AABB<Corner>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners(self.least, self.greatest)
+    }
+}
+
+impl PointDistance for Square {
+    fn distance_2(&self, point: &Corner) -> f64 {
+        let away =
+            [0, 1, 2].map(|axis| point[axis] - point[axis].clamp(self.least[axis], self.greatest[axis]));
+        dot(away, away)
+    }
+}
+
 fn to_segment_2(point: Corner, from: Corner, to: Corner) -> f64 {
     let (along, offset) = (minus(to, from), minus(point, from));
     let length_2 = dot(along, along);
@@ -70,6 +108,8 @@ mod tests {
         ] {
             assert!((facet.distance_2(&point).sqrt() - expected).abs() < 1e-12, "{point:?}");
         }
+        let square = Square::of(&[[1, 0, 0], [1, 1, 0], [1, 1, 1], [1, 0, 1]]);
+        assert!((square.distance_2(&[3.0, 0.5, 2.0]) - 5.0).abs() < 1e-12);
         let flat = Facet([[0.0; 3], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]]);
         assert!((flat.distance_2(&[1.0, 2.0, 0.0]) - 4.0).abs() < 1e-12);
     }

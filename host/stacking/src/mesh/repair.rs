@@ -1,6 +1,7 @@
 //! The test that a mesh is closed, and the repairs that cannot change what it bounds at the scale of a voxel.
 
-use super::{Corner, Triangle, area, cross, dot, minus};
+use super::winding::{self, Hole, Open};
+use super::{Corner, Triangle, area, cross, dot, minus, orient};
 use crate::readers::ModelProblem;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;
@@ -23,6 +24,15 @@ pub enum Repair {
     Duplicate(usize),
     /// Corners that were moved onto their neighbours.
     Welded(usize),
+    /// Triangles that were inside out against their neighbours.
+    Turned(usize),
+    /// Open edges that stay: inside is what the mesh winds round more than half.
+    Wound {
+        /// How many.
+        edges: usize,
+        /// Voxels whose winding number is between a quarter and three quarters, in percent of those inside, rounded up.
+        unsure_percent: usize,
+    },
     /// Small flat holes.
     Closed {
         /// How many.
@@ -37,12 +47,24 @@ pub enum Repair {
         /// The voxels in them.
         voxels: usize,
     },
+    /// Parts without a voxel's centre inside, which would be missing.
+    Thickened {
+        /// The voxels put there.
+        voxels: usize,
+    },
     /// Pieces that hang together by parts thinner than a voxel.
     Joined {
         /// How many.
         pieces: usize,
         /// The voxels put between them.
         voxels: usize,
+    },
+    /// Voxels put or taken to come to a number of panels.
+    Edited {
+        /// How many.
+        voxels: usize,
+        /// The panels before.
+        panels: usize,
     },
     /// Crumbs off the solid.
     Dropped {
@@ -59,12 +81,29 @@ impl fmt::Display for Repair {
             Self::Degenerate(count) => write!(f, "dropped {count} triangles without area"),
             Self::Duplicate(count) => write!(f, "dropped {count} triangles that were there before"),
             Self::Welded(count) => write!(f, "joined {count} corners to others in almost the same place"),
+            Self::Turned(count) => {
+                write!(f, "turned over {count} triangles that were inside out against their neighbours")
+            }
+            Self::Wound { edges, unsure_percent } => write!(
+                f,
+                "left {edges} open edges and took for inside what the mesh winds round more than half; \
+                 {unsure_percent} % of the voxels could as well be outside"
+            ),
             Self::Closed { holes, edges } => write!(f, "closed {holes} small holes of {edges} edges in all"),
             Self::Filled { cavities, voxels } => {
                 write!(f, "filled {cavities} cavities ({voxels} voxels) that can't be seen from outside")
             }
+            Self::Thickened { voxels } => {
+                write!(f, "put {voxels} voxels where parts of the mesh are too thin for a voxel's centre")
+            }
             Self::Joined { pieces, voxels } => {
                 write!(f, "joined {pieces} pieces by {voxels} voxels where the mesh is thinner than a voxel")
+            }
+            Self::Edited { voxels, panels } => {
+                write!(
+                    f,
+                    "put or took {voxels} voxels at the surface of {panels} panels to come to the number asked for"
+                )
             }
             Self::Dropped { pieces, voxels } => {
                 write!(f, "dropped {pieces} crumbs ({voxels} voxels) that hang on nothing")
@@ -88,11 +127,28 @@ struct Loose {
     triangles: usize,
 }
 
-/// Makes the mesh closed: every edge is passed as often one way as the other, so it bounds a solid.
+/// A mesh after its repair.
+pub(super) struct Repaired {
+    pub(super) triangles: Vec<Triangle>,
+    pub(super) repairs: Vec<Repair>,
+    pub(super) rest: Option<Rest>,
+}
+
+/// What stays open.
+pub(super) struct Rest {
+    /// How many edges.
+    pub(super) edges: usize,
+    /// The holes that they surround.
+    pub(super) holes: Vec<Hole>,
+    /// What to say if inside and outside can't be told apart so.
+    pub(super) refusal: ModelProblem,
+}
+
+/// Makes the mesh closed where that is safe: every edge is passed as often one way as the other, so it bounds a solid.
 ///
 /// # Errors
-/// A coordinate that is no number, edges that stay open.
-pub(super) fn closed(triangles: Vec<Triangle>) -> Result<(Vec<Triangle>, Vec<Repair>), ModelProblem> {
+/// A coordinate that is no number, no triangle with an area, a piece without two sides.
+pub(super) fn closed(triangles: Vec<Triangle>) -> Result<Repaired, ModelProblem> {
     let not_finite = |corners: &Triangle| !corners.iter().flatten().all(|c| c.is_finite());
     if let Some(triangle) = triangles.iter().position(not_finite) {
         return Err(ModelProblem::NotFinite { triangle });
@@ -110,6 +166,7 @@ pub(super) fn closed(triangles: Vec<Triangle>) -> Result<(Vec<Triangle>, Vec<Rep
             Repair::Duplicate as fn(usize) -> Repair,
         ),
         (Indexed::weld, Repair::Welded),
+        (Indexed::turn, Repair::Turned),
     ] {
         if loose.is_empty() {
             break;
@@ -123,15 +180,26 @@ pub(super) fn closed(triangles: Vec<Triangle>) -> Result<(Vec<Triangle>, Vec<Rep
             (mesh, loose) = (changed, after);
         }
     }
-    if !loose.is_empty() {
-        let Some(patches) = mesh.patches(&loose) else { return Err(mesh.not_closed(&loose)) };
-        repairs.push(Repair::Closed { holes: patches.len(), edges: loose.len() });
-        mesh.triangles.extend(patches.into_iter().flatten());
-    }
     if mesh.triangles.is_empty() {
         return Err(ModelProblem::Empty { expected: "triangles with an area" });
     }
-    Ok((mesh.triangles.iter().map(|triangle| mesh.at(triangle)).collect(), repairs))
+    let mut rest = None;
+    if loose.iter().any(|edge| edge.triangles == 2) {
+        // Two triangles pass it the same way, and turning them over didn't help: a strip with a twist.
+        return Err(mesh.not_closed(&loose));
+    } else if let Some(patches) = mesh.patches(&loose) {
+        if !patches.is_empty() {
+            repairs.push(Repair::Closed { holes: patches.len(), edges: loose.len() });
+            mesh.triangles.extend(patches.into_iter().flatten());
+        }
+    } else {
+        let open: Vec<Open> =
+            loose.iter().map(|edge| Open { ends: edge.ends, excess: edge.excess }).collect();
+        let holes = winding::holes(&open, &mesh.corners);
+        rest = Some(Rest { edges: loose.len(), holes, refusal: mesh.not_closed(&loose) });
+    }
+    let triangles = mesh.triangles.iter().map(|triangle| mesh.at(triangle)).collect();
+    Ok(Repaired { triangles, repairs, rest })
 }
 
 impl Indexed {
@@ -226,6 +294,10 @@ impl Indexed {
         joined
     }
 
+    fn turn(&mut self, _: &[Loose]) -> usize {
+        orient::unite(&mut self.triangles, &self.corners).unwrap_or(0)
+    }
+
     /// A patch for each hole, or nothing if any isn't small, flat and on its own.
     fn patches(&self, loose: &[Loose]) -> Option<Vec<Vec<[usize; 3]>>> {
         let mut next: BTreeMap<usize, usize> = BTreeMap::new();
@@ -300,7 +372,9 @@ mod tests {
 
     #[test]
     fn a_closed_mesh_stays_as_it_is() {
-        assert_eq!(closed(tetrahedron()).unwrap(), (tetrahedron(), Vec::new()));
+        let Repaired { triangles, repairs, rest } = closed(tetrahedron()).unwrap();
+        assert_eq!((triangles, repairs), (tetrahedron(), Vec::new()));
+        assert!(rest.is_none());
     }
 
     #[test]
@@ -308,7 +382,7 @@ mod tests {
         let mut mesh = tetrahedron();
         mesh.push(mesh[1]);
         mesh.push([mesh[0][0], mesh[0][1], mesh[0][1]]);
-        let (found, repairs) = closed(mesh).unwrap();
+        let Repaired { triangles: found, repairs, .. } = closed(mesh).unwrap();
         assert_eq!((found.len(), repairs), (4, vec![Repair::Degenerate(1), Repair::Duplicate(1)]));
     }
 
@@ -317,17 +391,16 @@ mod tests {
         let mut mesh = tetrahedron();
         mesh[2][0][0] += 1e-6;
         mesh[3][2][2] -= 2e-6;
-        let (_, repairs) = closed(mesh.clone()).unwrap();
-        assert_eq!(repairs, [Repair::Welded(2)]);
+        assert_eq!(closed(mesh.clone()).unwrap().repairs, [Repair::Welded(2)]);
         mesh[2][0][0] += 1e-3;
-        assert!(matches!(closed(mesh), Err(ModelProblem::NotClosed { .. })));
+        assert_eq!(closed(mesh).unwrap().rest.unwrap().edges, 4);
     }
 
     #[test]
-    fn a_hole_is_closed_when_it_is_small_and_refused_when_it_is_not() {
+    fn a_hole_is_closed_when_it_is_small_and_stays_when_it_is_not() {
         let mut mesh = tetrahedron();
         let [a, b, c] = mesh.remove(0);
-        let told = closed(mesh.clone()).unwrap_err().to_string();
+        let told = closed(mesh.clone()).unwrap().rest.unwrap().refusal.to_string();
         assert!(told.starts_with("the mesh is not closed: 3 open edges"), "{told}");
         // Around a small triangular hole in the middle of that side.
         let middle = [0.3, 0.3, 0.0];
@@ -336,7 +409,7 @@ mod tests {
             mesh.push([from, to, near(to)]);
             mesh.push([from, near(to), near(from)]);
         }
-        let (found, repairs) = closed(mesh).unwrap();
+        let Repaired { triangles: found, repairs, .. } = closed(mesh).unwrap();
         assert_eq!(repairs, [Repair::Closed { holes: 1, edges: 3 }]);
         assert!(Indexed::new(&found).loose().is_empty());
     }

@@ -13,7 +13,7 @@ mod voxel_text;
 pub use model_error::{ModelError, ModelProblem};
 
 use crate::dual::Dual;
-use crate::mesh::{Mesh, Repair, Solid, Triangle};
+use crate::mesh::{Distance, Mesh, Repair, Solid, Triangle};
 use crate::surface::{Surface, SurfaceError};
 use std::path::Path;
 use std::str;
@@ -25,6 +25,7 @@ pub struct Model {
     pub(crate) surface: Surface,
     pub(crate) dual: Dual,
     pub(crate) voxel_size: Option<f64>,
+    pub(crate) distance: Option<Distance>,
     repairs: Vec<Repair>,
 }
 
@@ -36,6 +37,8 @@ pub(crate) const VOXEL_LIMIT: usize = 1 << 26;
 pub enum Resolution {
     /// Edge of a voxel, in units of the mesh, above 0.
     Voxel(f64),
+    /// The number of panels: the size is searched, and the solid edited voxel by voxel.
+    Panels(usize),
 }
 
 impl Model {
@@ -45,7 +48,7 @@ impl Model {
     /// Sheets that cross, neighbours of unlike orientation, a surface in pieces.
     pub fn new(name: impl Into<String>, surface: Surface) -> Result<Self, SurfaceError> {
         let dual = Dual::of(&surface)?;
-        Ok(Self { name: name.into(), surface, dual, voxel_size: None, repairs: Vec::new() })
+        Ok(Self { name: name.into(), surface, dual, voxel_size: None, distance: None, repairs: Vec::new() })
     }
 
     /// Reads a model file: voxels (`.txt`, `.vox`), a lattice quad mesh (`.obj`), or with a resolution a closed mesh (`.obj`,
@@ -65,6 +68,16 @@ impl Model {
     /// What was repaired or changed on the way from a mesh.
     pub fn repairs(&self) -> &[Repair] {
         &self.repairs
+    }
+
+    /// Edge of a voxel in units of the mesh, where a mesh was cut into voxels.
+    pub fn voxel_size(&self) -> Option<f64> {
+        self.voxel_size
+    }
+
+    /// How far the surface is from the mesh, where it was made of one.
+    pub fn distance(&self) -> Option<Distance> {
+        self.distance
     }
 
     /// The surface.
@@ -126,10 +139,11 @@ fn read(path: &Path, resolution: Option<Resolution>) -> Result<Model, ModelProbl
         Format::Gltf => gltf::read(&bytes(path)?)?,
     };
     let mesh = Mesh::new(triangles)?;
-    let Resolution::Voxel(size) = resolution;
-    let Solid { voxels, voxel_size, repairs } = mesh.solid(size)?;
-    let surface = Surface::new(voxels.boundary(), Vec::new())?;
-    Ok(Model { voxel_size: Some(voxel_size), repairs, ..Model::new(name, surface)? })
+    let solid = mesh.solid(resolution)?;
+    let surface = Surface::new(solid.voxels.boundary(), Vec::new())?;
+    let distance = Some(mesh.distance_of(&solid, surface.quads()));
+    let Solid { voxel_size, repairs, .. } = solid;
+    Ok(Model { voxel_size: Some(voxel_size), distance, repairs, ..Model::new(name, surface)? })
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, ModelProblem> {

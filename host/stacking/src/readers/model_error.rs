@@ -25,11 +25,32 @@ pub enum ModelProblem {
         extension: String,
     },
     /// A triangle mesh without a voxel size.
-    #[error("a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh")]
+    #[error(
+        "a triangle mesh needs a voxel size, found none: give --voxel SIZE, in units of the mesh, or --panels N"
+    )]
     VoxelSizeMissing,
-    /// A voxel size for a file that is on the lattice already.
-    #[error("a voxel size is for meshes only: this format has voxels already")]
+    /// A resolution for a file that is on the lattice already.
+    #[error("a voxel size or a number of panels is for meshes only: this format has voxels already")]
     VoxelSizeUnused,
+    /// A number of panels that no solid of voxels has.
+    #[error("{wanted} panels: no solid of voxels has so many; the nearest numbers that one has: {nearest}")]
+    PanelCount {
+        /// What was asked for.
+        wanted: usize,
+        /// The nearest numbers that can be.
+        nearest: String,
+    },
+    /// No way to a number of panels.
+    #[error(
+        "no solid of {wanted} panels found: at the sizes tried the nearest has {nearest} more or fewer, and no voxel can be \
+         put or taken that leads there without a tear or a tunnel; try another number"
+    )]
+    PanelsNotReached {
+        /// What was asked for.
+        wanted: usize,
+        /// How far the nearest solid is from it, in panels.
+        nearest: usize,
+    },
     /// A voxel size that is no length.
     #[error("voxel size {size}, expected a length above 0")]
     VoxelSize {
@@ -219,6 +240,19 @@ pub enum ModelProblem {
         from: String,
         /// The other end.
         to: String,
+    },
+    /// A mesh with holes so large that it doesn't tell inside from outside.
+    #[error(
+        "{open}; it doesn't tell inside from outside either: the winding numbers of {percent} % as many voxels as are inside \
+         lie between 1/4 and 3/4, expected at most {most} %; close its holes"
+    )]
+    Undecided {
+        /// What is open.
+        open: Box<ModelProblem>,
+        /// Unsure voxels in percent of those inside.
+        percent: usize,
+        /// The limit.
+        most: usize,
     },
     /// No voxel's centre is inside.
     #[error(

@@ -55,6 +55,7 @@ impl SequenceText {
             source: Source {
                 model: name.into(),
                 voxel_size: None,
+                distance: None,
                 bounds: box_of(&target).map(|[low, high]| high - low),
                 seed: 0,
                 program: concat!("zygote ", env!("CARGO_PKG_VERSION")).into(),
