@@ -2,10 +2,11 @@
 
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
+use crate::plan_choice;
 use anyhow::{Context, anyhow};
 use clap::Args;
-use std::path::PathBuf;
-use zygote_stacking::{Figures, Model, PlanError, Request, Resolution, fold};
+use std::path::{Path, PathBuf};
+use zygote_stacking::{Figures, Model, Plan, PlanError, Report, Request, Resolution, fold};
 
 /// Arguments of `zygote plan`.
 #[derive(Args)]
@@ -13,9 +14,9 @@ pub(crate) struct Arguments {
     /// The shape: voxels (.txt, .vox), a quad mesh on the integer lattice (.obj), or with --voxel a closed
     /// mesh (.stl, .obj, .ply, .off, .gltf, .glb)
     model: PathBuf,
-    /// Number of piles; it divides the number of panels
-    #[arg(long, value_name = "K", default_value_t = 1)]
-    piles: usize,
+    /// Number of piles; it divides the number of panels [default: 1, or with --like as many as there]
+    #[arg(long, value_name = "K")]
+    piles: Option<usize>,
     /// Where to write the plan
     #[arg(short, long, value_name = "PLAN.fold")]
     output: PathBuf,
@@ -34,6 +35,12 @@ pub(crate) struct Arguments {
     /// Seed of every random choice
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Look for a plan whose flattened net has no overlapping panels
+    #[arg(long)]
+    net: bool,
+    /// Look for a plan that moves few hinges of this one; as many panels and piles, on cells that lie alike
+    #[arg(long, value_name = "A.fold", conflicts_with = "net")]
+    like: Option<PathBuf>,
 }
 
 /// Plans, checks the plan as it will stand in the file, and writes it.
@@ -42,23 +49,47 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for repair in model.repairs() {
         say(format_args!("{}: {repair}", arguments.model.display()));
     }
+    let like = arguments.like.as_deref().map(plan_choice::Like::read).transpose()?;
+    let piles = arguments.piles.or(like.as_ref().map(plan_choice::Like::piles)).unwrap_or(1);
     let request = Request {
-        piles: arguments.piles,
+        piles,
         root: arguments.root,
         thickness: arguments.thickness,
         panel_length_mm: arguments.panel_length,
         seed: arguments.seed,
     };
-    let plan = zygote_stacking::plan(&model, &request).map_err(|error| {
-        let told = anyhow!("{}: {error}", arguments.model.display());
+    let (plan, told) = match like {
+        Some(like) => like.plan(&arguments.model, &model, &request)?,
+        None if arguments.net => plan_choice::with_net(&arguments.model, &model, &request)?,
+        None => (zygote_stacking::plan(&model, &request).map_err(refused(&arguments.model))?, Vec::new()),
+    };
+    let (bytes, report) = checked(&plan)?;
+    write_file(&arguments.output, &bytes)?;
+    say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
+    say(format_args!("root: panel {}", plan.root));
+    for line in told {
+        say(line);
+    }
+    Ok(())
+}
+
+/// What a planner's refusal means for the user, by the model's name.
+pub(crate) fn refused(model: &Path) -> impl FnOnce(PlanError) -> Failure {
+    let name = model.display().to_string();
+    move |error| {
+        let told = anyhow!("{name}: {error}");
         match error {
             PlanError::Indivisible { .. } | PlanError::Root { .. } | PlanError::Length { .. } => {
                 Failure::BadInput(told)
             }
             PlanError::NoStrip(_) | PlanError::NoLayout { .. } => Failure::Failed(told),
         }
-    })?;
-    let bytes = fold::write(&plan).context("the plan can't be written as JSON").or_failed()?;
+    }
+}
+
+/// A plan as it will stand in its file, and the report of a check of that.
+pub(crate) fn checked(plan: &Plan) -> Result<(Vec<u8>, Report), Failure> {
+    let bytes = fold::write(plan).context("the plan can't be written as JSON").or_failed()?;
     let report = fold::check(&bytes).or_failed()?;
     if !report.is_valid() {
         let lines = report.lines(3).join("\n  ");
@@ -66,10 +97,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             "a fault of this program: its own plan breaks rules\n  {lines}"
         )));
     }
-    write_file(&arguments.output, &bytes)?;
-    say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
-    say(format_args!("root: panel {}", plan.root));
-    Ok(())
+    Ok((bytes, report))
 }
 
 /// What a plan amounts to, in two lines.

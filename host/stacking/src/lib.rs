@@ -6,6 +6,7 @@
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
 
+mod alternatives;
 mod arcs;
 mod bridge_tree;
 mod check;
@@ -19,6 +20,7 @@ mod hinges;
 mod layout;
 mod mesh;
 mod net;
+mod net_search;
 mod plan;
 mod planner;
 mod random;
@@ -26,19 +28,25 @@ mod readers;
 mod reconfigure;
 mod sequence;
 mod square;
+mod strip_changes;
+mod strip_plan;
 mod surface;
 mod tree_path;
 mod voxels;
 
+pub use alternatives::{Alternative, Alternatives, alternatives};
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use cut_edges::CutEdge;
 pub use hamiltonian::NoStrip;
 pub use mesh::Repair;
 pub use net::{Net, Overlaps};
+pub use net_search::{NetPlan, plan_with_net};
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{PlanError, Request, plan};
 pub use readers::{Model, ModelError, ModelProblem, Resolution};
-pub use reconfigure::{Action, Counts, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind};
+pub use reconfigure::{
+    Action, Counts, Like, LikeError, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind, plan_like,
+};
 pub use sequence::{
     Column, Difference, Layer, Mounted, Place, Sequence, SequenceError, SequenceProblem, SequenceText,
 };

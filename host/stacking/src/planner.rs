@@ -119,7 +119,7 @@ pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     })
 }
 
-fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
+pub(crate) fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
     let piles = request.piles;
     let divides = |k: &usize| *k > 0 && panels.is_multiple_of(*k);
     if !divides(&piles) {
