@@ -22,7 +22,10 @@ pub(crate) fn with_net(path: &Path, model: &Model, request: &Request) -> Result<
         told.push(format!(
             "net: none without overlaps was found ({tried}), which doesn't prove that there is none"
         ));
-        told.push(format!("the net of this plan has the fewest: {} pairs of panels overlap", overlaps.pairs));
+        told.push(format!(
+            "the net of this plan has the fewest overlaps of those tried: {} pairs of panels",
+            overlaps.pairs
+        ));
         if without_room > 0 {
             let piles = request.piles;
             told.push(format!(

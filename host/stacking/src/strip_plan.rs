@@ -20,7 +20,7 @@ pub(crate) fn of(order: &[usize], model: &Model, request: &Request) -> Option<Pl
         let [a, b] = [pair[0], pair[1]];
         // Neighbours in a strip are neighbours in the graph.
         let edges = model.dual.common_edges(a, b)?;
-        let (arc, up) = (along / height, along / height % 2 == 0);
+        let (arc, up) = (along / height, (along / height).is_multiple_of(2));
         if (along + 1).is_multiple_of(height) {
             let side = facing[a].side(edges[0]);
             let [dx, dy] = side.step();

@@ -13,8 +13,10 @@ const MOST_PLANS: usize = 64;
 const FEWEST_PLANS: usize = 8;
 /// Panels of all plans together, between these limits.
 const PANELS: usize = 60_000;
-/// Plans that are changed.
+/// Plans that are changed; of large ones only the best, for longer.
 const FINALISTS: usize = 3;
+/// Panels of a large plan.
+const LARGE: usize = 1000;
 
 /// Why there is no plan like another.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -100,8 +102,9 @@ pub fn plan_like(model: &Model, request: &Request, other: &Plan) -> Result<Like,
     moved.sort_unstable();
     let mut changes = 0;
     let mut best: Option<(Reconfiguration, Plan)> = None;
-    for (way, plan) in candidates.into_iter().take(FINALISTS) {
-        let improved = pieces::improve(&plan, model, request, &slots(other, &way.motion));
+    let finalists = if panels < LARGE { FINALISTS } else { 1 };
+    for (way, plan) in candidates.into_iter().take(finalists) {
+        let improved = pieces::improve(&plan, model, request, &slots(other, &way.motion), finalists);
         changes += improved.changes;
         let now = Reconfiguration::between(other, &improved.plan)?;
         for (way, plan) in [(way, plan), (now, improved.plan)] {

@@ -13,12 +13,12 @@ use crate::strip_plan;
 use crate::tree_path;
 use std::collections::BTreeMap;
 
-/// Panels that all changes of a plan look at together.
-const STEPS: u64 = 1_000_000_000;
+/// Panels that all changes of all plans look at together.
+const STEPS: u64 = 3_000_000_000;
 /// Most changes of a piece.
 const CHANGES: u64 = 1_000_000;
 /// So freely does the search begin.
-const HOTTEST: u64 = 44_000;
+const HOTTEST: u64 = 50_000;
 /// What a hinge costs that moves, where one that opens otherwise costs 1.
 const MOVED: usize = 3;
 /// Panels of a closed piece that is tried from each of its panels on.
@@ -30,12 +30,13 @@ pub(super) struct Improved {
     pub(super) changes: u64,
 }
 
-/// Brings the folds of a plan nearer to the hinges that are wanted.
+/// Brings the folds of a plan, one of so many, nearer to the hinges that are wanted.
 pub(super) fn improve(
     plan: &Plan,
     model: &Model,
     request: &Request,
     wanted: &BTreeMap<Slot, Mounted>,
+    plans: usize,
 ) -> Improved {
     let places = plan.places();
     let mut has_bridge = vec![false; plan.panels()];
@@ -46,7 +47,8 @@ pub(super) fn improve(
             HingeKind::Fold => is_folded[hinge.panels[0]] = true,
         }
     }
-    let schedule = Schedule { rounds: CHANGES.min(STEPS / plan.panels().max(1) as u64), hottest: HOTTEST };
+    let schedule =
+        Schedule { rounds: CHANGES.min(STEPS / (plans * plan.panels()).max(1) as u64), hottest: HOTTEST };
     let mut random = Random::new(request.seed, 1 << 34);
     let mut improved = Improved { plan: plan.clone(), changes: 0 };
     for (number, pile) in plan.piles.iter().enumerate() {

@@ -66,9 +66,9 @@ impl Changing {
         let at = self.place[near];
         self.start();
         if first_end {
-            self.proposed[..at].reverse()
+            self.proposed[..at].reverse();
         } else {
-            self.proposed[at + 1..].reverse()
+            self.proposed[at + 1..].reverse();
         }
         true
     }

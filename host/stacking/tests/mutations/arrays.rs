@@ -109,7 +109,8 @@ pub(crate) fn zygote_key_of_another_type(file: &mut Value, dice: &mut Dice) -> b
 }
 
 pub(crate) fn entry_gone(file: &mut Value, dice: &mut Dice) -> bool {
-    let list = array(file, *dice.of(&ARRAYS));
+    let place = *dice.of(&ARRAYS);
+    let list = array(file, place);
     if list.is_empty() {
         return false;
     }
@@ -118,7 +119,8 @@ pub(crate) fn entry_gone(file: &mut Value, dice: &mut Dice) -> bool {
 }
 
 pub(crate) fn entry_twice(file: &mut Value, dice: &mut Dice) -> bool {
-    let list = array(file, *dice.of(&ARRAYS));
+    let place = *dice.of(&ARRAYS);
+    let list = array(file, place);
     if list.is_empty() {
         return false;
     }
@@ -287,7 +289,7 @@ pub(crate) fn order_over_two_layers(file: &mut Value, dice: &mut Dice) -> bool {
     }
     // True of the stack, but FOLD readers need neighbours.
     let at = dice.below(column.len() - 2);
-    let s = if at % 2 == 0 { 1 } else { -1 };
+    let s = if at.is_multiple_of(2) { 1 } else { -1 };
     array(file, "/file_frames/0/faceOrders").push(json!([column[at + 2], column[at], s]));
     true
 }

@@ -196,8 +196,8 @@ pub(crate) fn target_angle_with_its_letter(file: &mut Value, dice: &mut Dice) ->
     let angle = *dice.of(&[-90, 0, 90, 180]);
     let old = integer(file, &format!("/edges_foldAngle/{hinge}"));
     // All that the file says of it agrees; only the coordinates don't.
-    let opening = index(file, &format!("/zygote:hinges/{hinge}/opening_deg"));
-    let inner = opening as i64 == 180 + old && old != 0;
+    let opening = integer(file, &format!("/zygote:hinges/{hinge}/opening_deg"));
+    let inner = opening == 180 + old && old != 0;
     put(file, &format!("/edges_assignment/{hinge}"), letter(angle));
     put(
         file,
@@ -215,12 +215,10 @@ pub(crate) fn zygote_angle_with_its_letter(file: &mut Value, dice: &mut Dice) ->
 }
 
 fn letter(angle: i64) -> Value {
-    json!(if angle > 0 {
-        "V"
-    } else if angle < 0 {
-        "M"
-    } else {
-        "F"
+    json!(match angle {
+        1.. => "V",
+        0 => "F",
+        _ => "M",
     })
 }
 
