@@ -1,7 +1,5 @@
 //! `zygote reconfigure` as a user meets it.
 
-#![expect(clippy::unwrap_used, reason = "output without a line fails the test")]
-
 mod scratch;
 
 use scratch::{Scratch, model};
