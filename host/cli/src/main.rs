@@ -1,5 +1,6 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
+mod alternatives;
 mod check;
 mod deploy;
 mod failure;
@@ -12,6 +13,7 @@ mod net;
 mod output;
 mod picture;
 mod plan;
+mod plan_choice;
 mod reconfigure;
 mod schedule;
 mod sequence;

@@ -2,11 +2,12 @@
 
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
+use crate::plan_choice;
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use zygote_stacking::{
-    Bridges, Figures, Model, Partition, PlanError, Quality, Request, Resolution, fold, quality,
+    Bridges, Figures, Model, Partition, Plan, PlanError, Quality, Report, Request, Resolution, fold, quality,
 };
 
 /// Arguments of `zygote plan`.
@@ -15,9 +16,9 @@ pub(crate) struct Arguments {
     /// The shape: voxels (.txt, .vox), a quad mesh on the integer lattice (.obj), or with --voxel or --panels a
     /// closed mesh (.stl, .obj, .ply, .off, .gltf, .glb)
     model: PathBuf,
-    /// Number of piles; it divides the number of panels
-    #[arg(long, value_name = "K", default_value_t = 1)]
-    piles: usize,
+    /// Number of piles; it divides the number of panels [default: 1, or with --like as many as there]
+    #[arg(long, value_name = "K")]
+    piles: Option<usize>,
     /// Where to write the plan
     #[arg(short, long, value_name = "PLAN.fold")]
     output: PathBuf,
@@ -48,6 +49,12 @@ pub(crate) struct Arguments {
     /// Seed of every random choice
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Look for a plan whose flattened net has no overlapping panels
+    #[arg(long)]
+    net: bool,
+    /// Look for a plan that moves few hinges of this one; as many panels and piles, on cells that lie alike
+    #[arg(long, value_name = "A.fold", conflicts_with = "net")]
+    like: Option<PathBuf>,
 }
 
 /// `--partition`.
@@ -89,8 +96,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             arguments.model.display()
         ));
     }
+    let like = arguments.like.as_deref().map(plan_choice::Like::read).transpose()?;
+    let piles = arguments.piles.or(like.as_ref().map(plan_choice::Like::piles)).unwrap_or(1);
     let request = Request {
-        piles: arguments.piles,
+        piles,
         root: arguments.root,
         thickness: arguments.thickness,
         panel_length_mm: arguments.panel_length,
@@ -106,8 +115,31 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         },
         grid: arguments.grid,
     };
-    let plan = zygote_stacking::plan(&model, &request).map_err(|error| {
-        let told = anyhow!("{}: {error}", arguments.model.display());
+    let (plan, told) = match like {
+        Some(like) => like.plan(&arguments.model, &model, &request)?,
+        None if arguments.net => plan_choice::with_net(&arguments.model, &model, &request)?,
+        None => (zygote_stacking::plan(&model, &request).map_err(refused(&arguments.model))?, Vec::new()),
+    };
+    let (bytes, report) = checked(&plan)?;
+    write_file(&arguments.output, &bytes)?;
+    say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
+    let Quality { depth, cut, beside, .. } = quality(&model, &plan);
+    say(format_args!(
+        "breaks: {}, depth of the tree path: {depth}, cut edges: {cut}, of which between neighbouring piles: {beside}",
+        report.figures.breaks
+    ));
+    say(format_args!("root: panel {}", plan.root));
+    for line in told {
+        say(line);
+    }
+    Ok(())
+}
+
+/// What a planner's refusal means for the user, by the model's name.
+pub(crate) fn refused(model: &Path) -> impl FnOnce(PlanError) -> Failure {
+    let name = model.display().to_string();
+    move |error| {
+        let told = anyhow!("{name}: {error}");
         match error {
             PlanError::Indivisible { .. }
             | PlanError::Root { .. }
@@ -118,8 +150,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             | PlanError::NoMatch(_)
             | PlanError::NeitherWay { .. } => Failure::Failed(told),
         }
-    })?;
-    let bytes = fold::write(&plan).context("the plan can't be written as JSON").or_failed()?;
+    }
+}
+
+/// A plan as it will stand in its file, and the report of a check of that.
+pub(crate) fn checked(plan: &Plan) -> Result<(Vec<u8>, Report), Failure> {
+    let bytes = fold::write(plan).context("the plan can't be written as JSON").or_failed()?;
     let report = fold::check(&bytes).or_failed()?;
     if !report.is_valid() {
         let lines = report.lines(3).join("\n  ");
@@ -127,15 +163,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             "a fault of this program: its own plan breaks rules\n  {lines}"
         )));
     }
-    write_file(&arguments.output, &bytes)?;
-    say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
-    let Quality { depth, cut, beside, .. } = quality(&model, &plan);
-    say(format_args!(
-        "breaks: {}, depth of the tree path: {depth}, cut edges: {cut}, of which between neighbouring piles: {beside}",
-        report.figures.breaks
-    ));
-    say(format_args!("root: panel {}", plan.root));
-    Ok(())
+    Ok((bytes, report))
 }
 
 /// What a plan amounts to, in two lines.

@@ -1,7 +1,9 @@
 //! The table of verbs.
 
 use crate::failure::Failure;
-use crate::{check, deploy, net, picture, plan, reconfigure, schedule, sequence, sim, tolerance};
+use crate::{
+    alternatives, check, deploy, net, picture, plan, reconfigure, schedule, sequence, sim, tolerance,
+};
 use clap::Subcommand;
 
 /// A verb and its arguments.
@@ -15,6 +17,8 @@ pub(crate) enum Verb {
     Sequence(sequence::Arguments),
     /// List the hinges to move so that a stack unfolds into another shape
     Reconfigure(reconfigure::Arguments),
+    /// Look for several plans of one shape, no two of which are hinged alike
+    Alternatives(alternatives::Arguments),
     /// Flatten a plan along its hinges, and count the panels that overlap
     Net(net::Arguments),
     /// Tell how far panels are off when hinges aren't exact, for the tree and for a single strip
@@ -37,6 +41,7 @@ impl Verb {
             Self::Check(arguments) => check::run(&arguments),
             Self::Sequence(arguments) => sequence::run(&arguments),
             Self::Reconfigure(arguments) => reconfigure::run(&arguments),
+            Self::Alternatives(arguments) => alternatives::run(&arguments),
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),

@@ -42,3 +42,37 @@ fn what_is_no_plan_is_refused_and_no_picture_drawn() {
     assert_eq!(place.zygote(&["net", "list.fold", "--svg", "net.svg"]).code, 2);
     assert_eq!(place.files(), ["list.fold"]);
 }
+
+#[test]
+fn a_plan_with_net_can_be_cut_from_one_sheet() {
+    let place = Scratch::new("net_search");
+    for piles in ["1", "4"] {
+        let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", piles, "--net", "-o", "fish.fold"]);
+        assert_eq!(run.code, 0, "{}", run.errors);
+        assert!(run.output.contains("net: no two panels overlap ("), "{}", run.output);
+        let run = place.zygote(&["net", "fish.fold"]);
+        assert!(
+            run.output.ends_with("no two panels overlap: the net can be cut from one sheet\n"),
+            "{}",
+            run.output
+        );
+        assert_eq!(place.zygote(&["check", "fish.fold"]).code, 0);
+    }
+}
+
+#[test]
+fn where_no_net_is_found_the_number_of_overlaps_is_told() {
+    let place = Scratch::new("net_not_found");
+    // The arcs of a strip make a row of 46 cells that runs into itself wherever it was cut.
+    let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", "46", "--net", "-o", "fish.fold"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("net: none without overlaps was found (256 strips and "), "{}", run.output);
+    assert!(run.output.contains("46 piles of one found no room side by side"), "{}", run.output);
+    let net = place.zygote(&["net", "fish.fold"]).output;
+    let pairs = |text: &str, before: &str, after: &str| -> Option<usize> {
+        text.split_once(before)?.1.split_once(after)?.0.parse().ok()
+    };
+    let told = pairs(&run.output, "of those tried: ", " pairs of panels");
+    assert!(told.is_some_and(|pairs| pairs > 0), "{}", run.output);
+    assert_eq!(told, pairs(&net, "panels overlap, in ", " pairs:"), "{net}");
+}

@@ -59,3 +59,31 @@ fn stacks_of_another_form_are_refused_and_no_list_written() {
     assert!(run.output.is_empty(), "{}", run.output);
     assert_eq!(place.files(), ["four.fold", "i.fold", "two.fold"]);
 }
+
+#[test]
+fn a_plan_like_another_tells_what_it_saves_and_reconfigure_agrees() {
+    let place = Scratch::new("reconfigure_like");
+    plan(&place, "fish92.txt", "2", "fish.fold");
+    let run = place.zygote(&["plan", &model("vehicle92.txt"), "--like", "fish.fold", "-o", "vehicle.fold"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("K = 2 piles"), "as many as the fish: {}", run.output);
+    assert!(run.output.contains("like fish.fold: 64 plans tried, 64 on its cells"), "{}", run.output);
+    let told = run.output.lines().last().unwrap();
+    let list = place.zygote(&["reconfigure", "fish.fold", "vehicle.fold"]);
+    assert_eq!(list.output.lines().last(), Some(told));
+    assert_eq!(place.zygote(&["check", "vehicle.fold"]).code, 0);
+}
+
+#[test]
+fn a_shape_that_cannot_be_like_a_plan_is_refused_with_the_reason() {
+    let place = Scratch::new("reconfigure_like_refused");
+    plan(&place, "fish92.txt", "2", "fish.fold");
+    let run = place.zygote(&["plan", &model("i14.txt"), "--like", "fish.fold", "-o", "i.fold"]);
+    assert_eq!(run.code, 2);
+    assert!(run.errors.contains("92 panels in the first plan and 14"), "{}", run.errors);
+    let arguments = ["plan", &model("vehicle92.txt"), "--piles", "4", "--like", "fish.fold", "-o", "v.fold"];
+    let run = place.zygote(&arguments);
+    assert_eq!(run.code, 2);
+    assert!(run.errors.contains("2 piles in the first plan and 4"), "{}", run.errors);
+    assert_eq!(place.files(), ["fish.fold"]);
+}

@@ -116,13 +116,7 @@ impl Search {
 }
 
 impl Found {
-    fn into_bridged(
-        self,
-        strip: &Strip,
-        cuts: &Cuts<'_>,
-        dual: &Dual,
-        request: &Request,
-    ) -> Option<Bridged> {
+    fn into_bridged(self, strip: &Strip, cuts: &Cuts<'_>, dual: &Dual, request: &Request) -> Option<Bridged> {
         let Self { offset, layout: Layout { cells, mut turns, bridges }, .. } = self;
         let Stack { piles, facing } = Stack::cut(&strip.order, offset, request.piles, dual);
         for (turn, pile) in turns.iter_mut().zip(&piles) {

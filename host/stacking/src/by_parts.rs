@@ -88,8 +88,7 @@ impl Placed<'_> {
         let borders = Borders::of(self.parts);
         let mut numbering = Numbering::new(self.neighbours.len());
         let mut other = |pile: usize, along_borders: bool, random: &mut Random| {
-            let beside =
-                |part: usize| along_borders && distance(self.cells[pile], self.cells[part]) == 1;
+            let beside = |part: usize| along_borders && distance(self.cells[pile], self.cells[part]) == 1;
             let lanes = borders.lanes(self.neighbours, &self.parts[pile], beside);
             partition::again(self.neighbours, &self.parts[pile], &lanes, &mut numbering, random)
         };

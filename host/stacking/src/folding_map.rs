@@ -41,6 +41,12 @@ impl Facing {
         Self { turn: if up { shared + 4 - other } else { shared + other } % 4, up }
     }
 
+    /// The facing of the panel that lies beside this one across `edge`, with its own edge `other` there.
+    pub(crate) fn beside(self, edge: usize, other: usize) -> Self {
+        let shared = self.side(edge).opposite() as usize;
+        Self { turn: if self.up { shared + 4 - other } else { shared + other } % 4, up: self.up }
+    }
+
     /// The facing after quarter turns of the whole pile.
     pub(crate) fn turned(self, quarters: usize) -> Self {
         Self { turn: (self.turn + quarters) % 4, up: self.up }
@@ -54,6 +60,17 @@ impl Facing {
     /// The facing in the mirror image of the whole pile, where up and down, N and S change places.
     pub(crate) fn mirrored(self) -> Self {
         Self { turn: (4 - self.turn) % 4, up: !self.up }
+    }
+
+    /// The quarter turns of the pile from this facing to another with the same side up.
+    pub(crate) fn quarters_to(self, other: Self) -> usize {
+        (other.turn + 4 - self.turn) % 4
+    }
+
+    /// The facing of a panel at a height that has these corners on a cell.
+    pub(crate) fn with_corners(height: usize, cell: [i32; 2], corners: &[[i32; 2]; 4]) -> Option<Self> {
+        let square_on = Self::square_on(height);
+        (0..4).map(|quarters| square_on.turned(quarters)).find(|facing| facing.corners(cell) == *corners)
     }
 
     /// The corners of the panel on a cell.
@@ -89,6 +106,13 @@ mod tests {
                     let (a, b) = (below.corners([0, 0]), above.corners([0, 0]));
                     assert_eq!(a[edge], b[(other + 1) % 4]);
                     assert_eq!(a[(edge + 1) % 4], b[other]);
+                    // So it does when they lie side by side.
+                    let beside = below.beside(edge, other);
+                    let b = beside.corners(below.side(edge).step());
+                    assert_eq!(
+                        (beside.up, a[edge], a[(edge + 1) % 4]),
+                        (below.up, b[(other + 1) % 4], b[other])
+                    );
                 }
             }
         }

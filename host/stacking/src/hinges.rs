@@ -3,7 +3,7 @@
 use crate::arcs::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
-use crate::plan::{Hinge, HingeKind};
+use crate::plan::{Hinge, HingeKind, Side};
 use crate::square::{self, Quad};
 
 /// All hinges: those of every pile from the bottom up, then the bridges. `facing` is that of the turned piles.
@@ -20,46 +20,51 @@ pub(crate) fn of(
             let panels = [pair[0], pair[1]];
             // Neighbours in a strip are neighbours in the graph, so the edges are there.
             if let Some(edges) = dual.common_edges(pair[0], pair[1]) {
-                let zygote_angle_deg = if height % 2 == 0 { 180 } else { -180 };
-                hinges.push(hinge(HingeKind::Fold, panels, edges, zygote_angle_deg, facing, target));
+                let side = facing[pair[0]].side(edges[0]);
+                hinges.push(hinge(HingeKind::Fold, panels, edges, side, height, target));
             }
         }
     }
     for joint in bridges {
-        hinges.push(hinge(HingeKind::Bridge, joint.panels, joint.edges, 0, facing, target));
+        let side = facing[joint.panels[0]].side(joint.edges[0]);
+        hinges.push(hinge(HingeKind::Bridge, joint.panels, joint.edges, side, 0, target));
     }
     hinges
 }
 
-fn hinge(
+/// A hinge between neighbours; of a fold the lower panel first, and its height.
+pub(crate) fn hinge(
     kind: HingeKind,
     panels: [usize; 2],
     edges: [usize; 2],
-    zygote_angle_deg: i16,
-    facing: &[Facing],
+    side: Side,
+    height: usize,
     target: &[Quad],
 ) -> Hinge {
-    let [a, b] = panels;
-    // Where b leads to, seen from a: +1 to the outer side, 0 straight on, -1 to the inner side.
-    let bend = square::dot(square::into(&target[b], edges[1]), square::normal(&target[a]));
+    let bend = bend(&target[panels[0]], &target[panels[1]], edges[1]);
+    let zygote_angle_deg = match kind {
+        HingeKind::Bridge => 0,
+        HingeKind::Fold if height.is_multiple_of(2) => 180,
+        HingeKind::Fold => -180,
+    };
     // The angle is measured where the panels touch: on the outer side, but on the inner one over odd heights.
-    let touching = if zygote_angle_deg < 0 { -bend } else { bend };
-    let (target_angle_deg, opening_deg) = (signed_quarter(bend), 180 - signed_quarter(touching));
+    let opening = 180 - 90 * if zygote_angle_deg < 0 { -bend } else { bend };
     Hinge {
         kind,
         panels,
         edges,
-        side: facing[a].side(edges[0]),
-        opening_deg: opening_deg.unsigned_abs(),
+        side,
+        opening_deg: opening.unsigned_abs(),
         zygote_angle_deg,
-        target_angle_deg,
+        target_angle_deg: 90 * bend,
     }
 }
 
-fn signed_quarter(bend: i32) -> i16 {
-    match bend {
-        1.. => 90,
+/// Where the second panel leads to from their common edge, seen from the first: 1 to its outer side, 0 straight on, -1 inwards.
+pub(crate) fn bend(first: &Quad, second: &Quad, edge: usize) -> i16 {
+    match square::dot(square::into(second, edge), square::normal(first)) {
+        1.. => 1,
         0 => 0,
-        _ => -90,
+        _ => -1,
     }
 }

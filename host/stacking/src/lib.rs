@@ -8,6 +8,7 @@
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
 
+mod alternatives;
 mod arcs;
 mod bridge_tree;
 mod by_arcs;
@@ -24,6 +25,7 @@ mod layout;
 mod matching;
 mod mesh;
 mod net;
+mod net_search;
 mod partition;
 mod placement;
 mod plan;
@@ -34,21 +36,27 @@ mod readers;
 mod reconfigure;
 mod sequence;
 mod square;
+mod strip_changes;
+mod strip_plan;
 mod surface;
 mod tree_path;
 mod voxels;
 
+pub use alternatives::{Alternative, Alternatives, alternatives};
 pub use by_parts::NoMatch;
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use cut_edges::CutEdge;
 pub use hamiltonian::NoStrip;
 pub use mesh::{Distance, Repair};
 pub use net::{Net, Overlaps};
+pub use net_search::{NetPlan, plan_with_net};
 pub use plan::{Hinge, HingeKind, Pile, Plan, Side, Source};
 pub use planner::{Bridges, Partition, PlanError, Request, plan};
 pub use quality::{Quality, quality};
 pub use readers::{Model, ModelError, ModelProblem, Resolution};
-pub use reconfigure::{Action, Counts, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind};
+pub use reconfigure::{
+    Action, Counts, Like, LikeError, Motion, Reconfiguration, ReconfigureError, Slot, SlotKind, plan_like,
+};
 pub use sequence::{
     Column, Difference, Layer, Mounted, Place, Sequence, SequenceError, SequenceProblem, SequenceText,
 };

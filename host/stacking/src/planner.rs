@@ -144,6 +144,16 @@ pub enum PlanError {
     },
 }
 
+impl PlanError {
+    /// Whether the search came to an end without success, so that another seed may do.
+    pub(crate) fn is_luck(&self) -> bool {
+        match self {
+            Self::NoStrip(_) | Self::NoLayout { .. } | Self::NoMatch(_) | Self::NeitherWay { .. } => true,
+            Self::Indivisible { .. } | Self::Root { .. } | Self::Length { .. } | Self::Grid { .. } => false,
+        }
+    }
+}
+
 /// Plans a zygote for a model.
 ///
 /// # Errors
@@ -160,15 +170,13 @@ pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
         Partition::Auto if request.piles == 1 => by_arcs()?,
         Partition::Auto => match by_parts() {
             Ok(found) => found,
-            Err(parts) => {
-                by_arcs().map_err(|arcs| PlanError::NeitherWay { arcs: Box::new(arcs), parts })?
-            }
+            Err(parts) => by_arcs().map_err(|arcs| PlanError::NeitherWay { arcs: Box::new(arcs), parts })?,
         },
     };
     Ok(into_plan(found, model, request))
 }
 
-fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
+pub(crate) fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
     let piles = request.piles;
     let divides = |k: &usize| *k > 0 && panels.is_multiple_of(*k);
     if !divides(&piles) {
@@ -191,7 +199,8 @@ fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {
     Ok(())
 }
 
-fn into_plan(found: Bridged, model: &Model, request: &Request) -> Plan {
+/// The plan of piles that are joined.
+pub(crate) fn into_plan(found: Bridged, model: &Model, request: &Request) -> Plan {
     let Bridged { piles, facing, cells, bridges, breaks } = found;
     let target = model.surface.quads().to_vec();
     let mut zygote = vec![[[0; 2]; 4]; facing.len()];

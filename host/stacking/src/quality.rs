@@ -1,7 +1,7 @@
 //! How good a plan is beside others of the same model.
 
-use crate::dual::Dual;
 use crate::by_parts;
+use crate::dual::Dual;
 use crate::placement::{self, Grid};
 use crate::plan::{HingeKind, Plan};
 use crate::readers::Model;

@@ -3,13 +3,18 @@
 #![expect(clippy::unwrap_used, reason = "a model that cannot be read or planned fails the test")]
 
 use std::path::PathBuf;
-use zygote_stacking::{Model, Net, Overlaps, Plan, Request, SequenceText};
+use zygote_stacking::{Model, Net, NetPlan, Overlaps, Plan, Request, SequenceText, fold, plan_with_net};
+
+fn model(name: &str) -> Model {
+    Model::read(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name), None).unwrap()
+}
+
+fn request(piles: usize, seed: u64) -> Request {
+    Request { piles, seed, ..Request::default() }
+}
 
 fn planned(name: &str, piles: usize) -> Plan {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name);
-    let model = Model::read(&path, None).unwrap();
-    let request = Request { piles, ..Request::default() };
-    zygote_stacking::plan(&model, &request).unwrap()
+    zygote_stacking::plan(&model(name), &request(piles, 0)).unwrap()
 }
 
 #[test]
@@ -57,4 +62,38 @@ fn panels_on_one_square_are_counted_as_panels_and_as_pairs_by_pile() {
     let crossing = strip("(0,0): S90 [E180]N90 E90 .\n(1,0): S90 [W180]N90 E90 .");
     let overlaps = Net::of(&crossing).overlaps(&crossing);
     assert_eq!(overlaps, Overlaps { panels: 2, pairs: 1, pairs_in_a_pile: 0, most: 2 });
+}
+
+#[test]
+fn small_shapes_have_a_net_without_overlaps_in_one_pile_and_in_several() {
+    let shapes = [
+        ("cube6.txt", [1, 2, 3]),
+        ("i14.txt", [1, 2, 7]),
+        ("l14.txt", [1, 2, 7]),
+        ("diagonal24.txt", [1, 2, 4]),
+        ("torus32.txt", [1, 2, 4]),
+        ("fish92.txt", [1, 2, 4]),
+        ("airplane92.txt", [1, 2, 4]),
+        ("vehicle92.txt", [1, 2, 4]),
+        ("fish144.txt", [1, 3, 4]),
+    ];
+    for (name, numbers) in shapes {
+        for piles in numbers {
+            for seed in [0, 1] {
+                let NetPlan { plan, overlaps, starts, .. } =
+                    plan_with_net(&model(name), &request(piles, seed)).unwrap();
+                let told = format!("{name} in {piles} piles, seed {seed}");
+                assert!(starts > 0, "{told}");
+                assert_eq!(plan.piles.len(), piles, "{told}");
+                assert!(fold::check(&fold::write(&plan).unwrap()).unwrap().is_valid(), "{told}");
+                assert_eq!((overlaps.pairs, overlaps), (0, Net::of(&plan).overlaps(&plan)), "{told}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_seed_finds_the_same_net() {
+    let plan = || plan_with_net(&model("fish92.txt"), &request(4, 3)).unwrap().plan;
+    assert_eq!(plan(), plan());
 }

@@ -30,8 +30,7 @@ fn the_ratios_in_the_book_are_those_of_the_plans() {
         let name = name.trim_matches('`');
         let slenderness: f64 = slenderness.parse().unwrap();
         let piles = piles.parse().unwrap();
-        let request =
-            Request { piles, thickness: 1.0 / slenderness, ..Request::default() };
+        let request = Request { piles, thickness: 1.0 / slenderness, ..Request::default() };
         let model = Model::read(&repository.join("models").join(name), None).unwrap();
         let plan = plan(&model, &request).unwrap();
         let figures = check(&fold::parse(&fold::write(&plan).unwrap()).unwrap()).figures;

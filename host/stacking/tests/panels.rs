@@ -14,7 +14,7 @@ fn read(name: &str, resolution: Resolution) -> Result<Model, ModelProblem> {
 }
 
 fn planned(model: &Model, piles: usize) -> Vec<u8> {
-    let request = Request { piles, root: None, thickness: 0.01, panel_length_mm: 90.0, seed: 0 };
+    let request = Request { piles, ..Request::default() };
     let bytes = fold::write(&plan(model, &request).unwrap()).unwrap();
     let report = check(&fold::parse(&bytes).unwrap());
     assert!(report.is_valid(), "{:?}", report.lines(3));

@@ -5,7 +5,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use zygote_stacking::{
-    Action, Counts, Hinge, HingeKind, Model, Plan, Reconfiguration, Request, SequenceText, Side,
+    Action, Counts, Hinge, HingeKind, Like, LikeError, Model, Plan, Reconfiguration, ReconfigureError,
+    Request, SequenceText, Side, fold, plan_like,
 };
 
 fn planned(name: &str, piles: usize, seed: u64) -> Plan {
@@ -158,4 +159,52 @@ fn stacks_of_another_form_are_refused_with_both() {
         Reconfiguration::between(&row, &corner).unwrap_err().to_string(),
         "no turn brings the cells (0,0) (1,0) (2,0) of the first plan to the cells (0,0) (0,1) (1,0) of the second"
     );
+}
+
+fn like(name: &str, other: &Plan, seed: u64) -> Result<Like, LikeError> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models").join(name);
+    let piles = other.piles.len();
+    let request = Request { piles, seed, ..Request::default() };
+    plan_like(&Model::read(&path, None).unwrap(), &request, other)
+}
+
+#[test]
+fn a_plan_like_another_is_valid_and_moves_fewer_hinges_than_any_that_was_compared() {
+    for (name, piles) in [("airplane92.txt", 2), ("vehicle92.txt", 4), ("airplane92.txt", 1)] {
+        let fish = planned("fish92.txt", piles, 0);
+        let Like { plan, way, tried, moved, changes } = like(name, &fish, 0).unwrap();
+        let told = format!("{name} in {piles} piles");
+        assert!(fold::check(&fold::write(&plan).unwrap()).unwrap().is_valid(), "{told}");
+        assert_eq!(way, Reconfiguration::between(&fish, &plan).unwrap(), "{told}");
+        assert!(tried > 8 && changes > 1000 && moved.len() > 1 && moved.is_sorted(), "{told}: {moved:?}");
+        assert!(way.counts.effort().0 < moved[0], "{told}: {:?}, compared {moved:?}", way.counts);
+        let [mut panels, mut all]: [Vec<usize>; 2] =
+            [plan.piles.iter().flat_map(|pile| pile.panels.clone()).collect(), (0..92).collect()];
+        panels.sort_unstable();
+        all.dedup();
+        assert_eq!(panels, all, "{told}");
+    }
+}
+
+#[test]
+fn a_shape_like_itself_comes_close_to_no_move_at_all() {
+    let cube = planned("cube6.txt", 1, 0);
+    assert_eq!(like("cube6.txt", &cube, 7).unwrap().way.counts.effort(), (0, 0));
+    let fish = planned("fish92.txt", 2, 0);
+    let itself = like("fish92.txt", &fish, 0).unwrap();
+    assert_eq!((itself.way.counts.kept, itself.moved[0]), (91, 0), "the same seed gives the same plan");
+}
+
+#[test]
+fn stacks_that_no_plan_of_the_shape_can_be_are_told() {
+    let fish = planned("fish92.txt", 4, 0);
+    assert!(matches!(like("fish144.txt", &fish, 0), Err(LikeError::Stack(ReconfigureError::Panels { .. }))));
+    // Nine cells in a row, where the planner makes its grids as compact as it can.
+    let mut row = planned("fish144.txt", 9, 0);
+    for (pile, at) in row.piles.iter_mut().zip(0..) {
+        pile.cell = [at, 0];
+    }
+    let error = like("fish144.txt", &row, 0).unwrap_err();
+    assert!(matches!(error, LikeError::Cells { .. }), "{error}");
+    assert!(error.to_string().contains("plans has its piles on the cells (0,0) (1,0)"), "{error}");
 }

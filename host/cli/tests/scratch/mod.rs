@@ -33,6 +33,7 @@ impl Scratch {
         Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }
 
+    #[allow(dead_code, reason = "not every test reads files")]
     pub(crate) fn read(&self, name: &str) -> String {
         fs::read_to_string(self.folder.join(name)).unwrap()
     }

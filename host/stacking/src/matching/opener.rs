@@ -1,8 +1,8 @@
 //! Opens the rings of placed piles, each so that it joins as many groups as can be and matches most.
 
+use super::Matched;
 use super::groups::Groups;
 use super::opening::{Frame, Opening};
-use super::Matched;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
 use crate::hamiltonian::Strip;
@@ -146,7 +146,9 @@ impl<'a> Opener<'a> {
     /// Opens a pile in all ways that join as many other groups as its present one, until `pile` can be joined to it so that
     /// there are fewer groups.
     fn turn_to(&mut self, pile: usize, beside: usize, before: usize, random: &mut Random) -> bool {
-        let (Some(old), Some(old_beside)) = (self.openings[pile], self.openings[beside]) else { return false };
+        let (Some(old), Some(old_beside)) = (self.openings[pile], self.openings[beside]) else {
+            return false;
+        };
         let groups = self.groups_without(Some(beside));
         let mut ways: Vec<(Score, Opening)> = self.ways(beside, &groups.of, random);
         let most = ways.iter().map(|(score, _)| score.0).max().unwrap_or(0);
@@ -305,10 +307,7 @@ impl<'a> Opener<'a> {
         let matches = |pile: usize, cut: &CutEdge| {
             gone != Some(pile) && gone != Some(cut.other_pile) && self.is_match(cut)
         };
-        Groups::new(
-            self.frames.len(),
-            pairs.map(|(pile, cut)| ((pile, cut.other_pile), matches(pile, cut))),
-        )
+        Groups::new(self.frames.len(), pairs.map(|(pile, cut)| ((pile, cut.other_pile), matches(pile, cut))))
     }
 
     /// How many matches there are.

@@ -57,7 +57,8 @@ fn exchange(
         return None;
     }
     let (leaves, b) = border[random.below(border.len())];
-    let touches = |panel: &&usize| neighbours[**panel].iter().any(|near| parts[a].binary_search(near).is_ok());
+    let touches =
+        |panel: &&usize| neighbours[**panel].iter().any(|near| parts[a].binary_search(near).is_ok());
     let coming: Vec<usize> = parts[b].iter().filter(touches).copied().collect();
     let comes = coming[random.below(coming.len())];
     let swapped = |part: &[usize], out: usize, new: usize| {

@@ -5,8 +5,11 @@
 //! piles have an even number of panels upside down too, which keeps outer sides up at even heights; of all ways that bring
 //! its piles to the cells of the other plan the one is taken in which fewest hinges change place, then fewest their angle.
 
+mod like;
 mod motion;
+mod pieces;
 
+pub use like::{Like, LikeError, plan_like};
 pub use motion::Motion;
 
 use crate::plan::{HingeKind, Plan, Side};
@@ -102,6 +105,13 @@ pub struct Counts {
     pub kept: usize,
 }
 
+impl Counts {
+    /// What to compare ways by: hinges that change place, then those that change their angle.
+    pub fn effort(&self) -> (usize, usize) {
+        (self.moved + self.removed, self.turned)
+    }
+}
+
 /// The way from one plan to another.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reconfiguration {
@@ -130,10 +140,7 @@ impl Reconfiguration {
             .into_iter()
             .map(|motion| compare(motion, &slots(first, &motion), &there));
         // The first of the best: turned least, and not upside down where that is as good.
-        let best = ways.min_by_key(|way| {
-            let Counts { moved, removed, turned, .. } = way.counts;
-            (moved + removed, turned)
-        });
+        let best = ways.min_by_key(|way| way.counts.effort());
         best.ok_or_else(|| ReconfigureError::Cells { first: cells(first), second: cells(second) })
     }
 }
@@ -154,6 +161,12 @@ fn slots(plan: &Plan, motion: &Motion) -> BTreeMap<Slot, Mounted> {
         (Slot { cell, height, kind }, Mounted { side, opening_deg: hinge.opening_deg })
     });
     hinges.collect()
+}
+
+/// The hinges of a stack by their slots, the same however the stack is turned. Which panel stays fixed doesn't count.
+pub(crate) fn regardless_of_turns(plan: &Plan) -> Vec<(Slot, Mounted)> {
+    let turned = Motion::to_corner(plan, [0, 0]).map(|motion| slots(plan, &motion).into_iter().collect());
+    turned.min().unwrap_or_default()
 }
 
 fn compare(

@@ -20,23 +20,21 @@ impl Motion {
 
     /// All motions that bring the piles of `first` to the cells of `second`, turned least first.
     pub(super) fn all(first: &Plan, second: &Plan) -> Vec<Self> {
-        let cells = |plan: &Plan, motion: &Self| -> BTreeSet<[i32; 2]> {
-            plan.piles.iter().map(|pile| motion.cell(pile.cell)).collect()
-        };
         let there = cells(second, &Self::NONE);
-        let low = least(&there);
+        Self::to_corner(first, least(&there)).filter(|motion| cells(first, motion) == there).collect()
+    }
+
+    /// All motions of a stack that bring the least corner of its grid to a cell, turned least first.
+    pub(super) fn to_corner(plan: &Plan, corner: [i32; 2]) -> impl Iterator<Item = Self> + use<'_> {
         // Turned over, an odd number of panels would have outer sides up at odd heights.
-        let over = Some(first.height()).filter(|height| height.is_multiple_of(2)).map(Some);
+        let over = Some(plan.height()).filter(|height| height.is_multiple_of(2)).map(Some);
         let turns =
             [None].into_iter().chain(over).flat_map(|upside_down| (0..4).map(move |q| (upside_down, q)));
-        turns
-            .filter_map(move |(upside_down, quarters)| {
-                let turned = Self { upside_down, quarters, shift: [0, 0] };
-                let from = least(&cells(first, &turned));
-                let motion = Self { shift: [low[0] - from[0], low[1] - from[1]], ..turned };
-                (cells(first, &motion) == there).then_some(motion)
-            })
-            .collect()
+        turns.map(move |(upside_down, quarters)| {
+            let turned = Self { upside_down, quarters, shift: [0, 0] };
+            let from = least(&cells(plan, &turned));
+            Self { shift: [corner[0] - from[0], corner[1] - from[1]], ..turned }
+        })
     }
 
     /// Where a cell comes to.
@@ -65,6 +63,11 @@ impl Motion {
     pub fn height(&self, height: usize) -> usize {
         self.upside_down.map_or(height, |panels| panels - 1 - height)
     }
+}
+
+/// The cells of a plan after a motion.
+fn cells(plan: &Plan, motion: &Motion) -> BTreeSet<[i32; 2]> {
+    plan.piles.iter().map(|pile| motion.cell(pile.cell)).collect()
 }
 
 fn least(cells: &BTreeSet<[i32; 2]>) -> [i32; 2] {
