@@ -4,15 +4,18 @@
 use crate::dual::Dual;
 use crate::hamiltonian::Strip;
 use crate::matching::{self, Bridged, Opener};
-use crate::partition::{self, Borders, Numbering};
+use crate::partition::{self, Borders, Keeping, Numbering, Ringed};
 use crate::placement::{self, Grid, Weights};
-use crate::planner::Request;
+use crate::planner::{Bridges, Partition, Request};
 use crate::random::Random;
 
-/// Partitions tried.
-const PARTITIONS: usize = 4;
-/// Shapes of the grid tried for each partition.
-const GRIDS: usize = 3;
+/// Partitions tried, and shapes of the grid for each: where arcs are the way out, and where they are not.
+const PARTITIONS: [usize; 2] = [2, 6];
+const GRIDS: [usize; 2] = [2, 3];
+/// Panels looked at over all the times that parts are joined, and how often that is at least and at most.
+const EFFORT: usize = 16_000;
+const FEWEST_TIMES: usize = 2;
+const MOST_TIMES: usize = 12;
 /// Steps of matching for each placement and pile: in each a pile is opened anew.
 const STEPS_A_PILE: usize = 12;
 
@@ -45,25 +48,49 @@ pub(crate) fn find(dual: &Dual, neighbours: &[Vec<usize>], request: &Request) ->
     let all: Vec<usize> = (0..neighbours.len()).collect();
     let mut tried = NoMatch { piles, partitions: 0, ringed: 0, placements: 0, rings: 0 };
     let grids = request.grid.map_or_else(|| Grid::for_parts(piles), |grid| vec![Grid::of(grid)]);
-    for _ in 0..PARTITIONS {
+    let thorough = usize::from(request.partition == Partition::MinCut);
+    for _ in 0..PARTITIONS[thorough] {
         tried.partitions += 1;
-        let Some(mut parts) = partition::split(neighbours, &all, piles, &mut random) else { continue };
-        let Some(rings) = partition::rings(neighbours, &mut parts, &mut random) else { continue };
+        let Some(ringed) = ringed(neighbours, &all, piles, &mut random) else { continue };
+        let Some((parts, rings)) = partition::rings(neighbours, ringed, &mut random) else { continue };
         tried.ringed += 1;
         let weights = weights(neighbours, &parts);
-        for grid in grids.iter().take(GRIDS) {
+        for grid in grids.iter().take(GRIDS[thorough]) {
             let placement = placement::place(&weights, *grid, &mut random);
             if !placement.worth.whole() {
                 continue;
             }
             tried.placements += 1;
             let placed = Placed { dual, neighbours, parts: &parts, cells: &placement.cells, request };
-            if let Some(bridged) = placed.joined(&rings, &weights, &mut tried, &mut random) {
+            if let Some(bridged) = placed.best(&rings, &weights, &mut tried, &mut random) {
                 return Ok(bridged);
             }
         }
     }
     Err(tried)
+}
+
+/// Two partitions, made at once: the one of which more parts have a ring, or else the one that cuts fewer edges.
+fn ringed(neighbours: &[Vec<usize>], all: &[usize], piles: usize, random: &mut Random) -> Option<Ringed> {
+    let partition = |seed: u64| {
+        let mut random = Random::new(seed, 2);
+        let parts = partition::split(neighbours, all, piles, &mut random)?;
+        Some(Ringed::of(neighbours, parts, &mut random))
+    };
+    let seeds = [random.next(), random.next()];
+    let (one, other) = both(|| partition(seeds[0]), || partition(seeds[1]));
+    one.into_iter()
+        .chain(other)
+        .min_by_key(|ringed| (ringed.lack(), partition::edges_cut(neighbours, &ringed.parts)))
+}
+
+/// Does two things at once.
+fn both<A, B: Send>(one: impl FnOnce() -> A, other: impl FnOnce() -> B + Send) -> (A, B) {
+    std::thread::scope(|scope| {
+        let other = scope.spawn(other);
+        // A fault there is a fault here.
+        (one(), other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)))
+    })
 }
 
 /// Parts on their cells.
@@ -76,41 +103,72 @@ struct Placed<'a> {
 }
 
 impl Placed<'_> {
-    /// Opens the rings so that they match, and builds the bridges. While the piles hang together in groups only, piles
-    /// beside another group are opened anew.
-    fn joined(
+    /// Joins the parts several times, each time with other rings, two at once, and takes the best.
+    fn best(
         &self,
         rings: &[Strip],
         weights: &Weights,
         tried: &mut NoMatch,
         random: &mut Random,
     ) -> Option<Bridged> {
-        let borders = Borders::of(self.parts);
+        let times = (EFFORT / self.neighbours.len()).clamp(FEWEST_TIMES, MOST_TIMES);
+        let times = times.next_multiple_of(2);
+        let seeds: Vec<u64> = (0..times).map(|_| random.next()).collect();
+        let join = |number: usize| self.joined(rings, weights, number, seeds[number]);
+        let mut all: Vec<(Option<Bridged>, usize)> = Vec::with_capacity(times);
+        for pair in 0..times / 2 {
+            let (one, other) = both(|| join(2 * pair), || join(2 * pair + 1));
+            let failed = one.0.is_none() && other.0.is_none();
+            all.extend([one, other]);
+            if failed {
+                break;
+            }
+        }
+        tried.rings += all.iter().map(|(_, rings)| rings).sum::<usize>();
+        all.into_iter().filter_map(|(bridged, _)| bridged).max_by_key(|bridged| bridged.bridges.len())
+    }
+
+    /// Opens the rings so that they match, and builds the bridges. While the piles hang together in groups only, piles
+    /// beside another group are opened anew. Says how many other rings that took.
+    fn joined(
+        &self,
+        rings: &[Strip],
+        weights: &Weights,
+        number: usize,
+        seed: u64,
+    ) -> (Option<Bridged>, usize) {
+        let mut random = Random::new(seed, 1);
+        let random = &mut random;
+        let keeping = if number.is_multiple_of(2) { Keeping::Loosely } else { Keeping::Strictly };
+        let borders = Borders::of(self.dual, self.parts);
         let mut numbering = Numbering::new(self.neighbours.len());
         let mut other = |pile: usize, along_borders: bool, random: &mut Random| {
             let beside = |part: usize| along_borders && distance(self.cells[pile], self.cells[part]) == 1;
-            let lanes = borders.lanes(self.neighbours, &self.parts[pile], beside);
-            partition::again(self.neighbours, &self.parts[pile], &lanes, &mut numbering, random)
+            let lanes = borders.lanes(&self.parts[pile], beside);
+            partition::again(self.neighbours, &self.parts[pile], &lanes, keeping, &mut numbering, random)
         };
         let mut rings = rings.to_vec();
-        for (pile, ring) in rings.iter_mut().enumerate() {
-            if let Some(along) = other(pile, true, random) {
-                *ring = along;
+        if self.request.bridges == Bridges::Most {
+            for (pile, ring) in rings.iter_mut().enumerate() {
+                if let Some(along) = other(pile, true, random) {
+                    *ring = along;
+                }
             }
         }
         let mut opener = Opener::new(self.dual, &rings, self.cells, self.request.bridges);
         opener.open_all(first(&rings, weights), random);
+        let mut others = 0;
         for step in 0..STEPS_A_PILE * self.parts.len() {
             let Some((pile, beside)) = opener.groups().border(random) else {
                 opener.better(random);
-                return matching::bridge(self.dual, opener.matched(), self.request.bridges);
+                return (matching::bridge(self.dual, opener.matched(), self.request.bridges), others);
             };
             // A ring along a straight border shows it one side only, others show it more.
             let ring = if step % 2 == 0 { None } else { other(pile, false, random) };
-            tried.rings += usize::from(ring.is_some());
+            others += usize::from(ring.is_some());
             opener.join(pile, beside, ring, random);
         }
-        None
+        (None, others)
     }
 }
 

@@ -7,9 +7,14 @@ use crate::hamiltonian::NoStrip;
 use crate::hinges;
 use crate::matching::Bridged;
 use crate::plan::{HingeKind, Pile, Plan, Source};
+use crate::quality::{Quality, quality};
 use crate::readers::Model;
 use crate::tree_path;
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
+
+/// Up to so many panels both ways of making piles are gone.
+const FEW_PANELS: usize = 1_000;
 
 /// How the piles are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -163,17 +168,34 @@ pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     let neighbours = model.dual.neighbours();
     let by_arcs = || by_arcs::find(&model.dual, &neighbours, request);
     let by_parts = || by_parts::find(&model.dual, &neighbours, request);
-    let found = match request.partition {
-        Partition::Arcs => by_arcs()?,
-        Partition::MinCut => by_parts()?,
+    let plan = |found| into_plan(found, model, request);
+    match request.partition {
+        Partition::Arcs => Ok(plan(by_arcs()?)),
+        Partition::MinCut => Ok(plan(by_parts()?)),
         // A single pile is a strip either way.
-        Partition::Auto if request.piles == 1 => by_arcs()?,
+        Partition::Auto if request.piles == 1 => Ok(plan(by_arcs()?)),
         Partition::Auto => match by_parts() {
-            Ok(found) => found,
-            Err(parts) => by_arcs().map_err(|arcs| PlanError::NeitherWay { arcs: Box::new(arcs), parts })?,
+            // Arcs seldom do better, so they are looked at where that costs little.
+            Ok(parts) if neighbours.len() > FEW_PANELS => Ok(plan(parts)),
+            Ok(parts) => Ok(better(model, plan(parts), by_arcs().ok().map(plan))),
+            Err(parts) => match by_arcs() {
+                Ok(arcs) => Ok(plan(arcs)),
+                Err(arcs) => Err(PlanError::NeitherWay { arcs: Box::new(arcs), parts }),
+            },
         },
+    }
+}
+
+/// The plan with more bridges, or of as many the one that cuts fewer edges, or else the one with the shallower tree path.
+fn better(model: &Model, parts: Plan, arcs: Option<Plan>) -> Plan {
+    let score = |plan: &Plan| {
+        let Quality { bridges, cut, depth, .. } = quality(model, plan);
+        (bridges, Reverse(cut), Reverse(depth))
     };
-    Ok(into_plan(found, model, request))
+    match arcs {
+        Some(arcs) if score(&arcs) > score(&parts) => arcs,
+        _ => parts,
+    }
 }
 
 pub(crate) fn check_request(panels: usize, request: &Request) -> Result<(), PlanError> {

@@ -6,6 +6,7 @@ use crate::placement::{self, Grid};
 use crate::plan::{HingeKind, Plan};
 use crate::readers::Model;
 use crate::tree_path;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Figures by which plans of one model compare.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +15,8 @@ pub struct Quality {
     pub cells: usize,
     /// Bridges.
     pub bridges: usize,
+    /// What `bridges` can't exceed for these piles on these cells: a panel takes one bridge for each pile beside its own.
+    pub bridge_bound: usize,
     /// Most hinges between the middle of the tree path and a panel.
     pub depth: usize,
     /// Neighbours in different piles.
@@ -34,10 +37,12 @@ pub fn quality(model: &Model, plan: &Plan) -> Quality {
         let ([ax, ay], [bx, by]) = (cell(a), cell(b));
         ax.abs_diff(bx) + ay.abs_diff(by) == 1
     };
-    let pairs = (0..parts.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-    let beside = pairs.filter(|(a, b)| near(*a, *b)).map(|(a, b)| weights.of(a, b)).sum();
+    let pairs = || (0..parts.len()).flat_map(|a| (0..a).map(move |b| [a, b])).filter(|[a, b]| near(*a, *b));
+    let beside = pairs().map(|[a, b]| weights.of(a, b)).sum();
     let [across, along] = plan.grid().map(|side| usize::try_from(side).unwrap_or(0));
+    let bridge_bound = pairs().map(|pair| most_bridges(dual, plan, pair)).sum();
     Quality {
+        bridge_bound,
         cells: across * along,
         bridges: plan.hinges.iter().filter(|hinge| hinge.kind == HingeKind::Bridge).count(),
         depth: tree_path::centre(&tree_path::joined(plan.panels(), &plan.hinges)).1,
@@ -45,4 +50,41 @@ pub fn quality(model: &Model, plan: &Plan) -> Quality {
         beside,
         beside_bound: placement::bound(&weights, Grid { across, along }),
     }
+}
+
+/// The most bridges between two piles side by side, whatever their strips: no two at one panel, so a greatest matching of the
+/// cut edges, by augmenting paths (Berge 1957).
+fn most_bridges(dual: &Dual, plan: &Plan, [a, b]: [usize; 2]) -> usize {
+    let own: BTreeSet<usize> = plan.piles[b].panels.iter().copied().collect();
+    let across = |panel: &usize| -> Vec<usize> {
+        let near = (0..4).filter_map(|edge| dual.across(*panel, edge));
+        near.map(|across| across.panel).filter(|panel| own.contains(panel)).collect()
+    };
+    let borders: Vec<Vec<usize>> =
+        plan.piles[a].panels.iter().map(across).filter(|near| !near.is_empty()).collect();
+    let mut mate: BTreeMap<usize, usize> = BTreeMap::new();
+    (0..borders.len()).filter(|panel| augment(*panel, &borders, &mut mate, &mut BTreeSet::new())).count()
+}
+
+/// Gives a panel a mate, by giving others another one where needed. No deeper than there are panels at a border.
+fn augment(
+    panel: usize,
+    borders: &[Vec<usize>],
+    mate: &mut BTreeMap<usize, usize>,
+    seen: &mut BTreeSet<usize>,
+) -> bool {
+    for &other in &borders[panel] {
+        if !seen.insert(other) {
+            continue;
+        }
+        let free = match mate.get(&other).copied() {
+            None => true,
+            Some(taken) => augment(taken, borders, mate, seen),
+        };
+        if free {
+            mate.insert(other, panel);
+            return true;
+        }
+    }
+    false
 }

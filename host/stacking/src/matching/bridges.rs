@@ -1,7 +1,7 @@
 //! Chooses the bridges among the matches: a spanning tree of piles, or as many as can be. Each bridge beyond the spanning
 //! ones closes a loop, so a fold on that loop is broken: bridges less breaks are always K - 1.
 
-use super::{Matched, turning};
+use super::{Matched, align, beyond, turning};
 use crate::arcs::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
@@ -51,7 +51,10 @@ pub(super) struct Candidate {
 }
 
 /// Joins matched piles; none where they don't hang together.
-pub(crate) fn bridge(dual: &Dual, matched: Matched, wanted: Bridges) -> Option<Bridged> {
+pub(crate) fn bridge(dual: &Dual, mut matched: Matched, wanted: Bridges) -> Option<Bridged> {
+    if wanted == Bridges::Most {
+        align::align(dual, &mut matched);
+    }
     let candidates = candidates(dual, &matched);
     let height = matched.piles.first().map_or(0, Vec::len);
     let turned = match wanted {
@@ -85,7 +88,6 @@ fn candidates(dual: &Dual, matched: &Matched) -> Vec<Candidate> {
     }
     let mut candidates = Vec::new();
     for (pile, panels) in matched.piles.iter().enumerate() {
-        let [x, y] = matched.cells[pile];
         for (height, &panel) in panels.iter().enumerate() {
             for edge in 0..4 {
                 let Some(across) = dual.across(panel, edge) else { continue };
@@ -93,11 +95,7 @@ fn candidates(dual: &Dual, matched: &Matched) -> Vec<Candidate> {
                 if other_pile <= pile || other_height != height {
                     continue;
                 }
-                let beyond = |side: &Side| {
-                    let [dx, dy] = side.step();
-                    matched.cells[other_pile] == [x + dx, y + dy]
-                };
-                let Some(towards) = Side::ALL.into_iter().find(beyond) else { continue };
+                let Some(towards) = beyond(matched.cells[pile], matched.cells[other_pile]) else { continue };
                 let sides =
                     [matched.facing[panel].side(edge), matched.facing[across.panel].side(across.edge)];
                 let joint = Joint {

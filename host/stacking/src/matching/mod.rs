@@ -5,9 +5,11 @@
 //! opening:  what a ring can become
 //! opener:   pile after pile, the opening that joins most groups and matches most
 //! groups:   which piles hang together
+//! align:    more neighbours at equal heights by small changes of the strips
 //! bridges:  a spanning tree of them, or as many as can be, a fold broken for each one too many
 //! ```
 
+mod align;
 mod bridges;
 mod groups;
 mod opener;
@@ -18,6 +20,7 @@ pub(crate) use bridges::{Bridged, bridge};
 pub(crate) use opener::Opener;
 
 use crate::folding_map::Facing;
+use crate::plan::Side;
 
 /// The piles, each opened.
 #[derive(Debug, Clone)]
@@ -30,4 +33,12 @@ pub(crate) struct Matched {
     pub(crate) turns: Vec<usize>,
     /// The cells, as they were given.
     pub(crate) cells: Vec<[i32; 2]>,
+}
+
+/// The side of a cell beyond which another one is, if they are neighbours.
+fn beyond(here: [i32; 2], there: [i32; 2]) -> Option<Side> {
+    Side::ALL.into_iter().find(|side| {
+        let [dx, dy] = side.step();
+        there == [here[0] + dx, here[1] + dy]
+    })
 }

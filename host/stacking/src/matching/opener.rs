@@ -1,8 +1,8 @@
 //! Opens the rings of placed piles, each so that it joins as many groups as can be and matches most.
 
-use super::Matched;
 use super::groups::Groups;
 use super::opening::{Frame, Opening};
+use super::{Matched, beyond};
 use crate::dual::Dual;
 use crate::folding_map::Facing;
 use crate::hamiltonian::Strip;
@@ -331,12 +331,7 @@ fn border(dual: &Dual, order: &[usize], pile_of: &[usize], cells: &[[i32; 2]]) -
     let cut_edge = |(panel, edge): (usize, usize)| {
         let across = dual.across(panel, edge)?;
         let other_pile = pile_of[across.panel];
-        let [x, y] = cells[pile_of[panel]];
-        let beyond = |side: &Side| {
-            let [dx, dy] = side.step();
-            cells[other_pile] == [x + dx, y + dy]
-        };
-        let towards = Side::ALL.into_iter().find(beyond)?;
+        let towards = beyond(cells[pile_of[panel]], cells[other_pile])?;
         Some(CutEdge { panel, edge, other: across.panel, other_edge: across.edge, other_pile, towards })
     };
     edges.filter_map(cut_edge).collect()

@@ -13,9 +13,9 @@ const PASSES: usize = 12;
 /// Rounds of moving stray pieces to the other half.
 const ROUNDS: usize = 4;
 /// Nodes that are looked at in all first cuts together, and the least and most cuts that makes.
-const EFFORT: usize = 60_000;
+const EFFORT: usize = 24_000;
 const FEWEST_CUTS: usize = 3;
-const MOST_CUTS: usize = 10;
+const MOST_CUTS: usize = 8;
 
 /// Splits a connected graph into a connected half of `first` nodes (false) and a connected rest (true); none where no cut
 /// left both in one piece.

@@ -13,12 +13,13 @@ mod bisect;
 mod lanes;
 mod rings;
 mod settle;
+mod shortened;
 mod sound;
 mod split;
 
 pub(crate) use lanes::Borders;
-pub(crate) use rings::{again, rings};
-pub(crate) use split::split;
+pub(crate) use rings::{Keeping, Ringed, again, rings};
+pub(crate) use split::{edges_cut, split};
 
 /// For every panel its neighbours.
 pub(crate) type Neighbours = [Vec<usize>];

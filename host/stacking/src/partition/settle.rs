@@ -1,14 +1,14 @@
 //! Parts exchange panels across their borders until cheap tests find nothing that keeps them from having a cycle each. The
 //! colours of a chess board are the usual matter: a cut as short as can be seldom leaves as many dark panels as light ones.
 
-use super::sound::defects;
+use super::sound::Part;
 use super::{Neighbours, Numbering};
 use crate::random::Random;
 
 /// Panels looked at in all exchanges together, and the least and most exchanges that makes.
 const EFFORT: usize = 400_000;
 const FEWEST: usize = 8;
-const MOST: usize = 200;
+const MOST: usize = 80;
 
 /// Exchanges panels between parts that touch while they have defects, and once at least where they are to stray.
 pub(super) fn settle(
@@ -18,54 +18,82 @@ pub(super) fn settle(
     numbering: &mut Numbering,
     random: &mut Random,
 ) {
-    let mut of_part: Vec<usize> =
-        parts.iter().map(|part| defects(&numbering.within(neighbours, part))).collect();
-    let height = parts.first().map_or(1, Vec::len);
+    let members: Vec<usize> = parts.iter().flatten().copied().collect();
+    let graph = numbering.within(neighbours, &members);
+    let mut part_of: Vec<usize> =
+        parts.iter().enumerate().flat_map(|(name, part)| vec![name; part.len()]).collect();
+    let defects = |part_of: &[usize], name: usize| Part { graph: &graph, part_of, name }.defects();
+    let mut of_part: Vec<usize> = (0..parts.len()).map(|name| defects(&part_of, name)).collect();
     let mut strays = if stray { 1 + random.below(3) } else { 0 };
-    for _ in 0..(EFFORT / height.max(1)).clamp(FEWEST, MOST) {
+    for _ in 0..(EFFORT / members.len().max(1)).clamp(FEWEST, MOST) {
         if of_part.iter().all(|defects| *defects == 0) && strays == 0 {
             break;
         }
-        let Some((a, b, [of_a, of_b])) = exchange(neighbours, parts, &of_part, random) else { continue };
-        let old = [std::mem::replace(&mut parts[a], of_a), std::mem::replace(&mut parts[b], of_b)];
-        let new = [a, b].map(|part| defects(&numbering.within(neighbours, &parts[part])));
+        let faulty: Vec<usize> = (0..of_part.len()).filter(|part| of_part[*part] > 0).collect();
+        let part =
+            if faulty.is_empty() { random.below(parts.len()) } else { faulty[random.below(faulty.len())] };
+        let near = spots(Part { graph: &graph, part_of: &part_of, name: part });
+        let Some([leaves, comes]) = exchange(&graph, &part_of, part, &near, random) else { continue };
+        let (a, b) = (part_of[leaves], part_of[comes]);
+        part_of.swap(leaves, comes);
+        let new = [a, b].map(|name| defects(&part_of, name));
         if new[0] + new[1] <= of_part[a] + of_part[b] {
             (of_part[a], of_part[b]) = (new[0], new[1]);
             strays = strays.saturating_sub(1);
         } else {
-            [parts[a], parts[b]] = old;
+            part_of.swap(leaves, comes);
         }
+    }
+    for (name, part) in parts.iter_mut().enumerate() {
+        let of_part = members.iter().zip(&part_of).filter(|(_, part)| **part == name);
+        *part = of_part.map(|(panel, _)| *panel).collect();
+        part.sort_unstable();
     }
 }
 
-/// Two parts that touch, one of them with defects if any has, and their panels after two have changed places.
+/// The weak spots of a part and the panels around them.
+fn spots(part: Part<'_>) -> Vec<usize> {
+    let mut spots = part.weak_spots();
+    for _ in 0..2 {
+        let around: Vec<usize> = spots.iter().flat_map(|spot| &part.graph[*spot]).copied().collect();
+        spots.extend(around);
+        spots.sort_unstable();
+        spots.dedup();
+    }
+    spots
+}
+
+/// Two panels to change places, each at the border with the other's part; the first or the other near one of the spots, if
+/// there are any at the border.
 fn exchange(
-    neighbours: &Neighbours,
-    parts: &[Vec<usize>],
-    of_part: &[usize],
+    graph: &Neighbours,
+    part_of: &[usize],
+    part: usize,
+    spots: &[usize],
     random: &mut Random,
-) -> Option<(usize, usize, [Vec<usize>; 2])> {
-    let faulty: Vec<usize> = (0..parts.len()).filter(|part| of_part[*part] > 0).collect();
-    let a = if faulty.is_empty() { random.below(parts.len()) } else { faulty[random.below(faulty.len())] };
-    let part_with = |panel: usize| (0..parts.len()).find(|part| parts[*part].binary_search(&panel).is_ok());
-    let border: Vec<(usize, usize)> = parts[a]
-        .iter()
-        .flat_map(|panel| neighbours[*panel].iter().map(move |other| (*panel, *other)))
-        .filter_map(|(panel, other)| part_with(other).filter(|part| *part != a).map(|part| (panel, part)))
+) -> Option<[usize; 2]> {
+    let border: Vec<(usize, usize)> = (0..graph.len())
+        .filter(|node| part_of[*node] == part)
+        .flat_map(|node| graph[node].iter().map(move |other| (node, *other)))
+        .filter(|(_, other)| part_of[*other] != part)
         .collect();
-    if border.is_empty() {
+    let is_near = |node: &usize| spots.binary_search(node).is_ok();
+    let near: Vec<(usize, usize)> =
+        border.iter().filter(|(node, other)| is_near(node) || is_near(other)).copied().collect();
+    let first_from = if near.is_empty() { &border } else { &near };
+    if first_from.is_empty() {
         return None;
     }
-    let (leaves, b) = border[random.below(border.len())];
-    let touches =
-        |panel: &&usize| neighbours[**panel].iter().any(|near| parts[a].binary_search(near).is_ok());
-    let coming: Vec<usize> = parts[b].iter().filter(touches).copied().collect();
-    let comes = coming[random.below(coming.len())];
-    let swapped = |part: &[usize], out: usize, new: usize| {
-        let mut part: Vec<usize> = part.iter().copied().filter(|panel| *panel != out).collect();
-        let at = part.partition_point(|panel| *panel < new);
-        part.insert(at, new);
-        part
-    };
-    Some((a, b, [swapped(&parts[a], leaves, comes), swapped(&parts[b], comes, leaves)]))
+    let (node, beyond) = first_from[random.below(first_from.len())];
+    let of_pair = border.iter().filter(|(_, other)| part_of[*other] == part_of[beyond]);
+    let [mut leaving, mut coming]: [Vec<usize>; 2] = [vec![node], vec![beyond]];
+    // One of them anywhere along the border, so that the sizes stay as they are.
+    if random.below(2) == 0 {
+        leaving.extend(of_pair.map(|(node, _)| *node));
+        leaving.swap_remove(0);
+    } else {
+        coming.extend(of_pair.map(|(_, other)| *other));
+        coming.swap_remove(0);
+    }
+    Some([leaving[random.below(leaving.len())], coming[random.below(coming.len())]])
 }

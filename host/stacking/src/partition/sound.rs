@@ -2,76 +2,116 @@
 
 use super::{Neighbours, pieces};
 
-/// What keeps a part from having a Hamiltonian cycle as far as cheap tests can tell, as a number that falls as it gets
-/// nearer to having one: further pieces, panels with less than two neighbours, a surplus of one colour where it can be
-/// coloured like a chess board, panels that hold it together.
-pub(super) fn defects(part: &Neighbours) -> usize {
-    let pieces = pieces(part, |_| true).len();
-    let ends = part.iter().filter(|near| near.len() < 2).count();
-    let defects = 4 * (pieces - 1) + 2 * ends;
-    if defects > 0 {
-        return defects + surplus(part);
-    }
-    surplus(part) + articulations(part)
+/// Some nodes of a graph: those that bear the name of one part.
+#[derive(Clone, Copy)]
+pub(super) struct Part<'a> {
+    pub(super) graph: &'a Neighbours,
+    /// Of every node the name of its part.
+    pub(super) part_of: &'a [usize],
+    pub(super) name: usize,
 }
 
-/// By how much one colour outnumbers the other; 0 where the part can't be coloured.
-fn surplus(part: &Neighbours) -> usize {
-    let mut dark: Vec<Option<bool>> = vec![None; part.len()];
-    dark[0] = Some(true);
-    let mut reached = vec![0];
-    let mut count = 0;
-    while let Some(node) = reached.pop() {
-        let other = dark[node].map(|dark| !dark);
-        count += 1;
-        for &next in &part[node] {
-            if dark[next].is_none() {
-                dark[next] = other;
-                reached.push(next);
-            } else if dark[next] != other {
-                return 0;
-            }
-        }
+impl<'a> Part<'a> {
+    fn has(self, node: usize) -> bool {
+        self.part_of[node] == self.name
     }
-    (2 * dark.iter().filter(|dark| **dark == Some(true)).count()).abs_diff(count)
-}
 
-/// How many nodes the part falls apart without (Hopcroft and Tarjan 1973), without recursion.
-fn articulations(part: &Neighbours) -> usize {
-    let mut found = vec![usize::MAX; part.len()];
-    let mut low = vec![usize::MAX; part.len()];
-    let mut parts_off = vec![false; part.len()];
-    (found[0], low[0]) = (0, 0);
-    let mut time = 1;
-    let mut children_of_root = 0;
-    let mut way = vec![(0, usize::MAX, 0)];
-    while let Some((node, parent, next)) = way.last_mut() {
-        let (node, parent) = (*node, *parent);
-        if let Some(&other) = part[node].get(*next) {
-            *next += 1;
-            if found[other] == usize::MAX {
-                children_of_root += usize::from(node == 0);
-                (found[other], low[other]) = (time, time);
-                time += 1;
-                way.push((other, node, 0));
-            } else if other != parent {
-                low[node] = low[node].min(found[other]);
-            }
-        } else {
-            way.pop();
-            if parent != usize::MAX {
-                low[parent] = low[parent].min(low[node]);
-                parts_off[parent] |= parent != 0 && low[node] >= found[parent];
+    fn nodes(self) -> impl Iterator<Item = usize> + 'a {
+        (0..self.graph.len()).filter(move |node| self.has(*node))
+    }
+
+    fn near(self, node: usize) -> impl Iterator<Item = usize> + 'a {
+        self.graph[node].iter().copied().filter(move |near| self.has(*near))
+    }
+
+    /// What keeps the part from having a Hamiltonian cycle as far as cheap tests can tell, as a number that falls as it gets
+    /// nearer to having one: further pieces, panels with less than two neighbours, a surplus of one colour where it can be
+    /// coloured like a chess board, panels that hold it together.
+    pub(super) fn defects(self) -> usize {
+        let pieces = pieces(self.graph, |node| self.has(node)).len();
+        let ends = self.nodes().filter(|node| self.near(*node).nth(1).is_none()).count();
+        let defects = 4 * pieces.saturating_sub(1) + 2 * ends;
+        if defects > 0 {
+            return defects + self.surplus();
+        }
+        self.surplus() + self.articulations().len()
+    }
+
+    /// The panels at which the part is weak: ends, and panels that hold it together.
+    pub(super) fn weak_spots(self) -> Vec<usize> {
+        let mut spots = self.articulations();
+        spots.extend(self.nodes().filter(|node| self.near(*node).nth(1).is_none()));
+        spots
+    }
+
+    /// By how much one colour outnumbers the other; 0 where the part can't be coloured.
+    fn surplus(self) -> usize {
+        let Some(start) = self.nodes().next() else { return 0 };
+        let mut dark: Vec<Option<bool>> = vec![None; self.graph.len()];
+        dark[start] = Some(true);
+        let mut reached = vec![start];
+        let (mut count, mut of_dark) = (0, 0usize);
+        while let Some(node) = reached.pop() {
+            count += 1;
+            of_dark += usize::from(dark[node] == Some(true));
+            let other = dark[node].map(|dark| !dark);
+            for next in self.near(node) {
+                if dark[next].is_none() {
+                    dark[next] = other;
+                    reached.push(next);
+                } else if dark[next] != other {
+                    return 0;
+                }
             }
         }
+        (2 * of_dark).abs_diff(count)
     }
-    parts_off[0] = children_of_root > 1;
-    parts_off.into_iter().filter(|parts_off| *parts_off).count()
+
+    /// The nodes that the part falls apart without (Hopcroft and Tarjan 1973), without recursion.
+    fn articulations(self) -> Vec<usize> {
+        let Some(start) = self.nodes().next() else { return Vec::new() };
+        let mut found = vec![usize::MAX; self.graph.len()];
+        let mut low = vec![usize::MAX; self.graph.len()];
+        let mut parts_off = vec![false; self.graph.len()];
+        (found[start], low[start]) = (0, 0);
+        let mut time = 1;
+        let mut children_of_start = 0;
+        let mut way = vec![(start, usize::MAX, 0)];
+        while let Some((node, parent, next)) = way.last_mut() {
+            let (node, parent) = (*node, *parent);
+            if let Some(&other) = self.graph[node].get(*next) {
+                *next += 1;
+                if !self.has(other) {
+                    continue;
+                }
+                if found[other] == usize::MAX {
+                    children_of_start += usize::from(node == start);
+                    (found[other], low[other]) = (time, time);
+                    time += 1;
+                    way.push((other, node, 0));
+                } else if other != parent {
+                    low[node] = low[node].min(found[other]);
+                }
+            } else {
+                way.pop();
+                if parent != usize::MAX {
+                    low[parent] = low[parent].min(low[node]);
+                    parts_off[parent] |= parent != start && low[node] >= found[parent];
+                }
+            }
+        }
+        parts_off[start] = children_of_start > 1;
+        (0..parts_off.len()).filter(|node| parts_off[*node]).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn defects(graph: &Neighbours) -> usize {
+        Part { graph, part_of: &vec![0; graph.len()], name: 0 }.defects()
+    }
 
     fn graph(nodes: usize, edges: &[(usize, usize)]) -> Vec<Vec<usize>> {
         let mut graph = vec![Vec::new(); nodes];

@@ -5,11 +5,43 @@ use super::{Neighbours, Numbering};
 use crate::random::Random;
 use std::collections::BTreeSet;
 
-/// Splits the members into `count` parts of equal size, each in one piece; none where a cut left none.
+/// Up to so many parts slices are tried.
+const MOST_SLICES: usize = 8;
+/// Rounds of moving all borders, at most.
+const ROUNDS: usize = 4;
+
+/// Splits the members into `count` parts of equal size, each in one piece; none where no cut left them so. Of two ways the one
+/// that cuts fewer edges: by halves, or part after part from an end, which suits long shapes.
 pub(crate) fn split(
     neighbours: &Neighbours,
     members: &[usize],
     count: usize,
+    random: &mut Random,
+) -> Option<Vec<Vec<usize>>> {
+    let by_halves = split_by(neighbours, members, count, |count| count / 2, random);
+    if !(3..=MOST_SLICES).contains(&count) {
+        return by_halves;
+    }
+    let slices = split_by(neighbours, members, count, |_| 1, random);
+    let cut = |parts: &Vec<Vec<usize>>| edges_cut(neighbours, parts);
+    by_halves.into_iter().chain(slices).min_by_key(cut)
+}
+
+/// How many edges join different parts.
+pub(crate) fn edges_cut(neighbours: &Neighbours, parts: &[Vec<usize>]) -> usize {
+    let within = |part: &Vec<usize>| {
+        let near = part.iter().flat_map(|panel| &neighbours[*panel]);
+        near.filter(|other| part.binary_search(other).is_ok()).count()
+    };
+    let ends: usize = parts.iter().flatten().map(|panel| neighbours[*panel].len()).sum();
+    (ends - parts.iter().map(within).sum::<usize>()) / 2
+}
+
+fn split_by(
+    neighbours: &Neighbours,
+    members: &[usize],
+    count: usize,
+    first_of: impl Fn(usize) -> usize,
     random: &mut Random,
 ) -> Option<Vec<Vec<usize>>> {
     let mut numbering = Numbering::new(neighbours.len());
@@ -21,7 +53,7 @@ pub(crate) fn split(
             continue;
         }
         let graph = numbering.within(neighbours, &members);
-        let half = count / 2;
+        let half = first_of(count);
         let beyond = bisect(&graph, members.len() / count * half, random)?;
         let of_half = |half: bool| members.iter().zip(&beyond).filter(move |(_, beyond)| **beyond == half);
         let [first, second] = [false, true].map(|half| of_half(half).map(|(panel, _)| *panel).collect());
@@ -51,22 +83,40 @@ fn polish(neighbours: &Neighbours, parts: &mut [Vec<usize>], numbering: &mut Num
         .map(|(a, b)| (part_of[a], part_of[b]))
         .filter(|(a, b)| a < b && *b != usize::MAX)
         .collect();
-    for (a, b) in pairs {
-        let members: Vec<usize> = parts[a].iter().chain(&parts[b]).copied().collect();
-        let graph = numbering.within(neighbours, &members);
-        let first = parts[a].len();
-        let mut beyond: Vec<bool> = (0..members.len()).map(|node| node >= first).collect();
-        let cut = |beyond: &[bool]| {
-            let crossing =
-                |node: usize| graph[node].iter().filter(move |other| beyond[**other] != beyond[node]);
-            (0..graph.len()).map(|node| crossing(node).count()).sum::<usize>() / 2
-        };
-        let before = cut(&beyond);
-        if refine(&graph, first, &mut beyond, random).is_some_and(|after| after < before) {
-            for (number, half) in [(a, false), (b, true)] {
-                let of_half = members.iter().zip(&beyond).filter(|(_, beyond)| **beyond == half);
-                parts[number] = of_half.map(|(panel, _)| *panel).collect();
-            }
+    for _ in 0..ROUNDS {
+        let mut bettered = false;
+        for &(a, b) in &pairs {
+            bettered |= polish_pair(neighbours, parts, [a, b], numbering, random);
+        }
+        if !bettered {
+            break;
         }
     }
+}
+
+/// The same for two parts; says whether it did.
+fn polish_pair(
+    neighbours: &Neighbours,
+    parts: &mut [Vec<usize>],
+    [a, b]: [usize; 2],
+    numbering: &mut Numbering,
+    random: &mut Random,
+) -> bool {
+    let members: Vec<usize> = parts[a].iter().chain(&parts[b]).copied().collect();
+    let graph = numbering.within(neighbours, &members);
+    let first = parts[a].len();
+    let mut beyond: Vec<bool> = (0..members.len()).map(|node| node >= first).collect();
+    let cut = |beyond: &[bool]| {
+        let crossing = |node: usize| graph[node].iter().filter(move |other| beyond[**other] != beyond[node]);
+        (0..graph.len()).map(|node| crossing(node).count()).sum::<usize>() / 2
+    };
+    let before = cut(&beyond);
+    let bettered = refine(&graph, first, &mut beyond, random).is_some_and(|after| after < before);
+    if bettered {
+        for (number, half) in [(a, false), (b, true)] {
+            let of_half = members.iter().zip(&beyond).filter(|(_, beyond)| **beyond == half);
+            parts[number] = of_half.map(|(panel, _)| *panel).collect();
+        }
+    }
+    bettered
 }
