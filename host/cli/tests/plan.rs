@@ -14,8 +14,29 @@ fn a_plan_is_written_and_its_summary_printed() {
         "{}",
         run.output
     );
-    assert!(run.output.contains("bridges: 3"), "{}", run.output);
+    assert!(run.output.contains("can be bridges)\nroot: panel "), "{}", run.output);
     assert_eq!(place.files(), ["fish.fold"]);
+}
+
+#[test]
+fn bridges_partition_and_grid_can_be_asked_for() {
+    let place = Scratch::new("plan_options");
+    let plan = |options: &[&str]| {
+        let model = model("fish92.txt");
+        let run = place.zygote(&[&["plan", &model, "--piles", "4", "-o", "fish.fold"], options].concat());
+        (run.code, run.output + &run.errors)
+    };
+    for partition in ["mincut", "arcs", "auto"] {
+        let (code, output) = plan(&["--partition", partition, "--bridges", "least"]);
+        assert_eq!(code, 0, "{output}");
+        assert!(output.contains("\nbridges: 3,") && output.contains("\nbreaks: 0,"), "{output}");
+    }
+    let (code, output) = plan(&["--grid", "4x1"]);
+    assert!(code == 0 && output.contains("on 4 x 1 cells"), "{output}");
+    let (code, output) = plan(&["--grid", "3x1"]);
+    assert!(code == 2 && output.contains("a grid of 3 x 1 cells, expected room for 4 piles"), "{output}");
+    let (code, output) = plan(&["--grid", "four"]);
+    assert!(code == 2 && output.contains("'four', expected cells in x and y"), "{output}");
 }
 
 #[test]

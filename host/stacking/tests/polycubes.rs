@@ -4,7 +4,9 @@
 
 use proptest::prelude::*;
 use std::collections::BTreeSet;
-use zygote_stacking::{Model, PlanError, Request, Surface, SurfaceError, check, fold, plan};
+use zygote_stacking::{
+    Bridges, Model, Partition, PlanError, Request, Surface, SurfaceError, check, fold, plan,
+};
 
 type Voxel = [i32; 3];
 
@@ -78,6 +80,33 @@ proptest! {
             // Voxels that enclose a cavity or touch along edges only have several surfaces: refused, and rightly so.
             Err(error) => prop_assert!(matches!(error, SurfaceError::Pieces { .. }), "{}", error),
             Ok(model) => assert_plans(&model, seed, &[1, 2, 4])?,
+        }
+    }
+
+    #[test]
+    fn either_way_of_making_piles_breaks_no_rule_and_gives_the_same_plan_again(
+        choices in prop::collection::vec((0..1000usize, 0..6usize), 0..40),
+        seed in any::<u64>(),
+        partition in prop::sample::select(vec![Partition::MinCut, Partition::Arcs]),
+        bridges in prop::sample::select(vec![Bridges::Least, Bridges::Most]),
+        piles in prop::sample::select(vec![2usize, 3, 4, 6]),
+    ) {
+        let surface = Surface::new(boundary(&solid(&choices)), Vec::new()).unwrap();
+        if let Ok(model) = Model::new("polycube", surface) && model.surface().len().is_multiple_of(piles) {
+            let request = Request { partition, bridges, ..request(piles, seed) };
+            match plan(&model, &request) {
+                Err(error) => {
+                    let known = matches!(error, PlanError::NoMatch(_) | PlanError::NoLayout { .. });
+                    prop_assert!(known, "{}", error);
+                }
+                Ok(made) => {
+                    let report = check(&fold::parse(&fold::write(&made).unwrap()).unwrap());
+                    prop_assert!(report.is_valid(), "K={piles}: {:?}", report.lines(3));
+                    prop_assert_eq!(report.figures.bridges, piles - 1 + report.figures.breaks);
+                    prop_assert!(bridges == Bridges::Most || report.figures.breaks == 0);
+                    prop_assert_eq!(made, plan(&model, &request).unwrap());
+                }
+            }
         }
     }
 

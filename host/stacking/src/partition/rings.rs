@@ -203,5 +203,5 @@ fn group(
 
 /// What keeps a part from having a cycle.
 fn defects(graph: &Neighbours) -> usize {
-    Part { graph, part_of: &vec![0; graph.len()], name: 0 }.defects()
+    Part { graph, name_of: &vec![0; graph.len()], name: 0 }.defects()
 }

@@ -22,7 +22,7 @@ pub(super) fn settle(
     let graph = numbering.within(neighbours, &members);
     let mut part_of: Vec<usize> =
         parts.iter().enumerate().flat_map(|(name, part)| vec![name; part.len()]).collect();
-    let defects = |part_of: &[usize], name: usize| Part { graph: &graph, part_of, name }.defects();
+    let defects = |part_of: &[usize], name: usize| Part { graph: &graph, name_of: part_of, name }.defects();
     let mut of_part: Vec<usize> = (0..parts.len()).map(|name| defects(&part_of, name)).collect();
     let mut strays = if stray { 1 + random.below(3) } else { 0 };
     for _ in 0..(EFFORT / members.len().max(1)).clamp(FEWEST, MOST) {
@@ -32,7 +32,7 @@ pub(super) fn settle(
         let faulty: Vec<usize> = (0..of_part.len()).filter(|part| of_part[*part] > 0).collect();
         let part =
             if faulty.is_empty() { random.below(parts.len()) } else { faulty[random.below(faulty.len())] };
-        let near = spots(Part { graph: &graph, part_of: &part_of, name: part });
+        let near = spots(Part { graph: &graph, name_of: &part_of, name: part });
         let Some([leaves, comes]) = exchange(&graph, &part_of, part, &near, random) else { continue };
         let (a, b) = (part_of[leaves], part_of[comes]);
         part_of.swap(leaves, comes);

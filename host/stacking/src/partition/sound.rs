@@ -7,13 +7,13 @@ use super::{Neighbours, pieces};
 pub(super) struct Part<'a> {
     pub(super) graph: &'a Neighbours,
     /// Of every node the name of its part.
-    pub(super) part_of: &'a [usize],
+    pub(super) name_of: &'a [usize],
     pub(super) name: usize,
 }
 
 impl<'a> Part<'a> {
     fn has(self, node: usize) -> bool {
-        self.part_of[node] == self.name
+        self.name_of[node] == self.name
     }
 
     fn nodes(self) -> impl Iterator<Item = usize> + 'a {
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     fn defects(graph: &Neighbours) -> usize {
-        Part { graph, part_of: &vec![0; graph.len()], name: 0 }.defects()
+        Part { graph, name_of: &vec![0; graph.len()], name: 0 }.defects()
     }
 
     fn graph(nodes: usize, edges: &[(usize, usize)]) -> Vec<Vec<usize>> {

@@ -75,16 +75,16 @@ pub fn plan_like(model: &Model, request: &Request, other: &Plan) -> Result<Like,
     if request.piles != other.piles.len() {
         return Err(ReconfigureError::Piles { first: other.piles.len(), second: request.piles }.into());
     }
+    let sides = other.grid().map(|side| usize::try_from(side).unwrap_or(1));
+    let grid = request.grid.or(Some(sides));
     let mut candidates: Vec<(Reconfiguration, Plan)> = Vec::new();
     let (mut tried, mut found, mut refused) = (0, None, None);
     for number in 0..(PANELS / panels.max(1)).clamp(FEWEST_PLANS, MOST_PLANS) as u64 {
-        // Few bridges leave most room to be alike.
-        let request = Request {
-            seed: request.seed.wrapping_add(number),
-            partition: Partition::Arcs,
-            bridges: Bridges::Least,
-            ..request.clone()
-        };
+        let mut request = Request { seed: request.seed.wrapping_add(number), grid, ..request.clone() };
+        // Few bridges leave most room to be alike: every other plan has as few as can be.
+        if number % 2 == 1 {
+            (request.partition, request.bridges) = (Partition::Arcs, Bridges::Least);
+        }
         let plan = match planner::plan(model, &request) {
             Ok(plan) => plan,
             // Another seed may do, but no request becomes possible by another seed.
