@@ -12,8 +12,10 @@ use crate::random::Random;
 
 /// Strips that are tried, each from another seed, until the piles of one find room.
 const STRIPS: u64 = 16;
-/// Ways of cutting a strip that are tried.
-const CUTS: usize = 600;
+/// Piles laid out for each strip, over all the ways of cutting it that are tried, and the most and fewest ways.
+const PILES: usize = 4_800;
+const MOST_CUTS: usize = 600;
+const FEWEST_CUTS: usize = 60;
 /// Layouts tried for each way of cutting a strip.
 const LAYOUTS: usize = 24;
 
@@ -83,7 +85,7 @@ impl Search {
         let places = if closed && self.piles > 1 { self.height } else { 1 };
         let mut offsets: Vec<usize> = (0..places).collect();
         self.random.shuffle(&mut offsets);
-        offsets.truncate(CUTS);
+        offsets.truncate((PILES / self.piles).clamp(FEWEST_CUTS, MOST_CUTS));
         for offset in offsets {
             self.try_offset(cuts, offset);
         }

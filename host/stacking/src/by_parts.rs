@@ -1,23 +1,43 @@
 //! Piles from parts with few edges between them: partition, rings, placement, matching. The other way beside arcs of one
 //! strip; it reaches numbers of piles that arcs don't.
 
+use crate::at_once::at_once;
 use crate::dual::Dual;
 use crate::hamiltonian::Strip;
 use crate::matching::{self, Bridged, Opener};
 use crate::partition::{self, Borders, Keeping, Numbering, Ringed};
 use crate::placement::{self, Grid, Weights};
-use crate::planner::{Bridges, Partition, Request};
+use crate::planner::{Bridges, Request};
 use crate::random::Random;
 
-/// Partitions tried, and shapes of the grid for each: where arcs are the way out, and where they are not.
-const PARTITIONS: [usize; 2] = [2, 6];
-const GRIDS: [usize; 2] = [2, 3];
+/// How long parts that match are sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// As long as pays while there is another way.
+    Short,
+    /// As long as there is some hope.
+    Thorough,
+}
+
+impl Effort {
+    /// Partitions tried, and shapes of the grid for each.
+    fn tries(self, piles: usize) -> (usize, usize) {
+        match self {
+            Self::Short if piles > MANY_PILES => (1, 2),
+            Self::Short => (2, 2),
+            Self::Thorough => (6, 3),
+        }
+    }
+}
+
+/// With more piles than this a partition takes long to match.
+const MANY_PILES: usize = 16;
 /// Panels looked at over all the times that parts are joined, and how often that is at least and at most.
-const EFFORT: usize = 16_000;
+const PANELS: usize = 16_000;
 const FEWEST_TIMES: usize = 2;
 const MOST_TIMES: usize = 12;
 /// Steps of matching for each placement and pile: in each a pile is opened anew.
-const STEPS_A_PILE: usize = 12;
+const STEPS_A_PILE: usize = 8;
 
 /// Why there are no piles from parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -42,20 +62,25 @@ pub struct NoMatch {
 ///
 /// # Errors
 /// The search's end, which proves nothing.
-pub(crate) fn find(dual: &Dual, neighbours: &[Vec<usize>], request: &Request) -> Result<Bridged, NoMatch> {
+pub(crate) fn find(
+    dual: &Dual,
+    neighbours: &[Vec<usize>],
+    request: &Request,
+    effort: Effort,
+) -> Result<Bridged, NoMatch> {
     let piles = request.piles;
     let mut random = Random::new(request.seed, 1 << 33);
     let all: Vec<usize> = (0..neighbours.len()).collect();
     let mut tried = NoMatch { piles, partitions: 0, ringed: 0, placements: 0, rings: 0 };
     let grids = request.grid.map_or_else(|| Grid::for_parts(piles), |grid| vec![Grid::of(grid)]);
-    let thorough = usize::from(request.partition == Partition::MinCut);
-    for _ in 0..PARTITIONS[thorough] {
+    let (partitions, shapes) = effort.tries(piles);
+    for _ in 0..partitions {
         tried.partitions += 1;
         let Some(ringed) = ringed(neighbours, &all, piles, &mut random) else { continue };
         let Some((parts, rings)) = partition::rings(neighbours, ringed, &mut random) else { continue };
         tried.ringed += 1;
         let weights = weights(neighbours, &parts);
-        for grid in grids.iter().take(GRIDS[thorough]) {
+        for grid in grids.iter().take(shapes) {
             let placement = placement::place(&weights, *grid, &mut random);
             if !placement.worth.whole() {
                 continue;
@@ -78,19 +103,10 @@ fn ringed(neighbours: &[Vec<usize>], all: &[usize], piles: usize, random: &mut R
         Some(Ringed::of(neighbours, parts, &mut random))
     };
     let seeds = [random.next(), random.next()];
-    let (one, other) = both(|| partition(seeds[0]), || partition(seeds[1]));
+    let (one, other) = at_once(|| partition(seeds[0]), || partition(seeds[1]));
     one.into_iter()
         .chain(other)
         .min_by_key(|ringed| (ringed.lack(), partition::edges_cut(neighbours, &ringed.parts)))
-}
-
-/// Does two things at once.
-fn both<A, B: Send>(one: impl FnOnce() -> A, other: impl FnOnce() -> B + Send) -> (A, B) {
-    std::thread::scope(|scope| {
-        let other = scope.spawn(other);
-        // A fault there is a fault here.
-        (one(), other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)))
-    })
 }
 
 /// Parts on their cells.
@@ -111,13 +127,13 @@ impl Placed<'_> {
         tried: &mut NoMatch,
         random: &mut Random,
     ) -> Option<Bridged> {
-        let times = (EFFORT / self.neighbours.len()).clamp(FEWEST_TIMES, MOST_TIMES);
+        let times = (PANELS / self.neighbours.len()).clamp(FEWEST_TIMES, MOST_TIMES);
         let times = times.next_multiple_of(2);
         let seeds: Vec<u64> = (0..times).map(|_| random.next()).collect();
         let join = |number: usize| self.joined(rings, weights, number, seeds[number]);
         let mut all: Vec<(Option<Bridged>, usize)> = Vec::with_capacity(times);
         for pair in 0..times / 2 {
-            let (one, other) = both(|| join(2 * pair), || join(2 * pair + 1));
+            let (one, other) = at_once(|| join(2 * pair), || join(2 * pair + 1));
             let failed = one.0.is_none() && other.0.is_none();
             all.extend([one, other]);
             if failed {

@@ -10,6 +10,7 @@
 
 mod alternatives;
 mod arcs;
+mod at_once;
 mod bridge_tree;
 mod by_arcs;
 mod by_parts;

@@ -1,8 +1,9 @@
 //! From a model to a plan: piles from parts with few edges between them or from arcs of a strip, then hinges. The command
 //! `zygote plan` calls it.
 
+use crate::at_once::at_once;
 use crate::by_arcs;
-use crate::by_parts::{self, NoMatch};
+use crate::by_parts::{self, Effort, NoMatch};
 use crate::hamiltonian::NoStrip;
 use crate::hinges;
 use crate::matching::Bridged;
@@ -15,6 +16,9 @@ use std::collections::BTreeSet;
 
 /// Up to so many panels both ways of making piles are gone.
 const FEW_PANELS: usize = 1_000;
+/// With more piles than this both are gone up to more panels.
+const MANY_PILES: usize = 16;
+const MANY_PANELS: usize = 20_000;
 
 /// How the piles are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -167,22 +171,34 @@ pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     check_request(model.surface.len(), request)?;
     let neighbours = model.dual.neighbours();
     let by_arcs = || by_arcs::find(&model.dual, &neighbours, request);
-    let by_parts = || by_parts::find(&model.dual, &neighbours, request);
+    let by_parts = |effort| by_parts::find(&model.dual, &neighbours, request, effort);
     let plan = |found| into_plan(found, model, request);
     match request.partition {
         Partition::Arcs => Ok(plan(by_arcs()?)),
-        Partition::MinCut => Ok(plan(by_parts()?)),
+        Partition::MinCut => Ok(plan(by_parts(Effort::Thorough)?)),
         // A single pile is a strip either way.
         Partition::Auto if request.piles == 1 => Ok(plan(by_arcs()?)),
-        Partition::Auto => match by_parts() {
-            // Arcs seldom do better, so they are looked at where that costs little.
-            Ok(parts) if neighbours.len() > FEW_PANELS => Ok(plan(parts)),
-            Ok(parts) => Ok(better(model, plan(parts), by_arcs().ok().map(plan))),
-            Err(parts) => match by_arcs() {
-                Ok(arcs) => Ok(plan(arcs)),
-                Err(arcs) => Err(PlanError::NeitherWay { arcs: Box::new(arcs), parts }),
-            },
-        },
+        Partition::Auto => {
+            // Arcs seldom do better, so they are looked at where that costs little, or parts may well fail.
+            let panels = neighbours.len();
+            let (parts, arcs) =
+                if panels <= FEW_PANELS || (request.piles > MANY_PILES && panels <= MANY_PANELS) {
+                    let (parts, arcs) = at_once(|| by_parts(Effort::Short), by_arcs);
+                    (parts, Some(arcs))
+                } else {
+                    (by_parts(Effort::Short), None)
+                };
+            match (parts, arcs) {
+                (Ok(parts), arcs) => Ok(better(model, plan(parts), arcs.and_then(Result::ok).map(plan))),
+                (Err(_), arcs) => match arcs.unwrap_or_else(by_arcs) {
+                    Ok(arcs) => Ok(plan(arcs)),
+                    Err(arcs) => match by_parts(Effort::Thorough) {
+                        Ok(parts) => Ok(plan(parts)),
+                        Err(parts) => Err(PlanError::NeitherWay { arcs: Box::new(arcs), parts }),
+                    },
+                },
+            }
+        }
     }
 }
 

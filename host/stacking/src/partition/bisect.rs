@@ -14,7 +14,7 @@ const PASSES: usize = 12;
 const ROUNDS: usize = 4;
 /// Nodes that are looked at in all first cuts together, and the least and most cuts that makes.
 const EFFORT: usize = 24_000;
-const FEWEST_CUTS: usize = 3;
+const FEWEST_CUTS: usize = 2;
 const MOST_CUTS: usize = 8;
 
 /// Splits a connected graph into a connected half of `first` nodes (false) and a connected rest (true); none where no cut

@@ -7,6 +7,8 @@ use std::collections::BTreeSet;
 
 /// Up to so many parts slices are tried.
 const MOST_SLICES: usize = 8;
+/// Up to so many panels, too: slices take longer than halves.
+const MOST_SLICED: usize = 20_000;
 /// Rounds of moving all borders, at most.
 const ROUNDS: usize = 4;
 
@@ -19,7 +21,7 @@ pub(crate) fn split(
     random: &mut Random,
 ) -> Option<Vec<Vec<usize>>> {
     let by_halves = split_by(neighbours, members, count, |count| count / 2, random);
-    if !(3..=MOST_SLICES).contains(&count) {
+    if !(3..=MOST_SLICES).contains(&count) || members.len() > MOST_SLICED {
         return by_halves;
     }
     let slices = split_by(neighbours, members, count, |_| 1, random);
