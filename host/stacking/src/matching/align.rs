@@ -13,6 +13,8 @@ use crate::plan::Side;
 
 /// Sweeps over all piles.
 const SWEEPS: usize = 6;
+/// Panels looked at in a pile over all changes of it.
+const EFFORT: usize = 1_000_000;
 /// What neighbours at one height are worth that face each other, and others, which a break can turn to face each other.
 const FACING: i32 = 3;
 const LEVEL: i32 = 1;
@@ -39,11 +41,13 @@ struct Move {
 /// Changes the strips as long as that brings more neighbours to equal heights.
 pub(super) fn align(dual: &Dual, matched: &mut Matched) {
     let mut aligner = Aligner::new(dual, matched);
+    let mut left: Vec<usize> = aligner.piles.iter().map(|pile| EFFORT / pile.len().max(1)).collect();
     for _ in 0..SWEEPS {
         let mut bettered = false;
         for pile in 0..aligner.piles.len() {
-            while aligner.improve(pile) {
+            while left[pile] > 0 && aligner.improve(pile) {
                 bettered = true;
+                left[pile] -= 1;
             }
         }
         if !bettered {

@@ -51,10 +51,19 @@ pub(super) struct Candidate {
 }
 
 /// Joins matched piles; none where they don't hang together.
-pub(crate) fn bridge(dual: &Dual, mut matched: Matched, wanted: Bridges) -> Option<Bridged> {
+pub(crate) fn bridge(dual: &Dual, matched: Matched, wanted: Bridges) -> Option<Bridged> {
     if wanted == Bridges::Most {
-        align::align(dual, &mut matched);
+        let mut aligned = matched.clone();
+        align::align(dual, &mut aligned);
+        // More matches may still be none where one held piles together.
+        if let Some(bridged) = bridge_as_they_stand(dual, aligned, wanted) {
+            return Some(bridged);
+        }
     }
+    bridge_as_they_stand(dual, matched, wanted)
+}
+
+fn bridge_as_they_stand(dual: &Dual, matched: Matched, wanted: Bridges) -> Option<Bridged> {
     let candidates = candidates(dual, &matched);
     let height = matched.piles.first().map_or(0, Vec::len);
     let turned = match wanted {

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 const ROUNDS: usize = 4;
 /// How many stops a range of change is long, unless it goes on to the top.
 const LONGEST: usize = 40;
-/// Changes looked at for each pile in one round that gain but might leave pieces apart.
-const CHECKS: usize = 4000;
+/// Candidates looked at for each pile in one round, over all changes that might leave pieces apart.
+const EFFORT: usize = 400_000;
 
 /// For every pile its quarter turns at every height. Begins with piles turned as a whole, which must hang together.
 pub(super) fn choose(candidates: &[Candidate], turns: &[usize], height: usize) -> Vec<Vec<usize>> {
@@ -97,7 +97,7 @@ impl<'a> Climb<'a> {
     /// Changes the turn of one pile over ranges, wherever more candidates fit.
     fn turn_one(&mut self, pile: usize) {
         let count = self.stops[pile].len();
-        let mut checks = 0;
+        let mut effort = 0;
         for (first, turn) in (0..count).flat_map(|first| (0..4).map(move |turn| (first, turn))) {
             // Along the range: the end where the gain is greatest, if it gains at all.
             let mut gain = 0isize;
@@ -111,8 +111,8 @@ impl<'a> Climb<'a> {
             }
             ends.sort_by(|a, b| b.cmp(a));
             for (_, last) in ends {
-                checks += 1;
-                if checks > CHECKS {
+                effort += self.candidates.len();
+                if effort > EFFORT {
                     return;
                 }
                 let old = self.turns[pile].clone();
@@ -127,6 +127,7 @@ impl<'a> Climb<'a> {
 
     /// Changes the turns of two piles between two candidates that join them and need the same turns.
     fn turn_two(&mut self) {
+        let mut effort = 0;
         for low in 0..self.candidates.len() {
             if self.fits(low) {
                 continue;
@@ -138,6 +139,10 @@ impl<'a> Climb<'a> {
             };
             let highs: Vec<usize> = (low..self.candidates.len()).filter(like).take(LONGEST).collect();
             for high in highs {
+                effort += self.candidates.len();
+                if effort > self.stops.len() * EFFORT {
+                    return;
+                }
                 let before = self.fitting();
                 let old = joint.piles.map(|pile| self.turns[pile].clone());
                 for (pile, turn, first, last) in [0, 1]
