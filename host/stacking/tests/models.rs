@@ -69,7 +69,7 @@ fn piles_without_room_end_in_an_error_that_says_what_was_tried() {
     let ribbon = Model::new("ribbon", Surface::new(quads, Vec::new()).unwrap()).unwrap();
     assert_eq!(plan(&ribbon, &request(2)).unwrap().piles.len(), 2);
     let error = plan(&ribbon, &request(3)).unwrap_err().to_string();
-    assert!(error.starts_with("no 3 parts that match found: tried 2 partitions"), "{error}");
+    assert!(error.starts_with("no 3 parts that match found: tried 6 partitions"), "{error}");
     assert!(error.contains("no layout of 3 piles of 2 panels found: tried 16 strips"), "{error}");
     assert!(error.contains("at most 2 piles found a free cell"), "{error}");
 }

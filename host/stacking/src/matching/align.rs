@@ -44,10 +44,10 @@ pub(super) fn align(dual: &Dual, matched: &mut Matched) {
     let mut left: Vec<usize> = aligner.piles.iter().map(|pile| EFFORT / pile.len().max(1)).collect();
     for _ in 0..SWEEPS {
         let mut bettered = false;
-        for pile in 0..aligner.piles.len() {
-            while left[pile] > 0 && aligner.improve(pile) {
+        for (pile, left) in left.iter_mut().enumerate() {
+            while *left > 0 && aligner.improve(pile) {
                 bettered = true;
-                left[pile] -= 1;
+                *left -= 1;
             }
         }
         if !bettered {
