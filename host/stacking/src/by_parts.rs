@@ -36,6 +36,8 @@ const MANY_PILES: usize = 16;
 const PANELS: usize = 16_000;
 const FEWEST_TIMES: usize = 2;
 const MOST_TIMES: usize = 12;
+/// Up to so many panels every other time keeps to lanes strictly; with more that takes long.
+const MOST_STRICT: usize = 20_000;
 /// Steps of matching for each placement and pile: in each a pile is opened anew.
 const STEPS_A_PILE: usize = 8;
 
@@ -155,7 +157,8 @@ impl Placed<'_> {
     ) -> (Option<Bridged>, usize) {
         let mut random = Random::new(seed, 1);
         let random = &mut random;
-        let keeping = if number.is_multiple_of(2) { Keeping::Loosely } else { Keeping::Strictly };
+        let strictly = number % 2 == 1 && self.neighbours.len() <= MOST_STRICT;
+        let keeping = if strictly { Keeping::Strictly } else { Keeping::Loosely };
         let borders = Borders::of(self.dual, self.parts);
         let mut numbering = Numbering::new(self.neighbours.len());
         let mut other = |pile: usize, along_borders: bool, random: &mut Random| {
