@@ -45,29 +45,22 @@ pub(super) fn refine(
     beyond: &mut [bool],
     random: &mut Random,
 ) -> Option<usize> {
+    let mut cut = Cut::of(graph, first, beyond);
     for _ in 0..ROUNDS {
         let mut size = usize::MAX;
         for _ in 0..PASSES {
-            let before = size;
-            size = pass(graph, first, beyond, random)?;
-            if size >= before {
+            cut.pass(random);
+            if cut.excess != 0 {
+                return None;
+            }
+            if cut.size >= size {
                 break;
             }
+            size = cut.size;
         }
-        let mut strays = 0;
-        for half in [false, true] {
-            let mut of_half = pieces(graph, |node| beyond[node] == half);
-            let Some(largest) = (0..of_half.len()).max_by_key(|number| of_half[*number].len()) else {
-                continue;
-            };
-            of_half.swap_remove(largest);
-            for node in of_half.iter().flatten() {
-                beyond[*node] = !half;
-                strays += 1;
-            }
-        }
-        if strays == 0 {
-            return Some(size);
+        let strays = [false, true].map(|half| cut.gather_strays(half));
+        if strays == [0, 0] {
+            return Some(cut.size);
         }
     }
     None
@@ -134,72 +127,144 @@ impl Buckets {
     }
 }
 
-/// One pass: every node moves once at most, the best first; then back to the best state with exact sizes. Says how many
-/// edges that one cuts.
-fn pass(graph: &Neighbours, first: usize, beyond: &mut [bool], random: &mut Random) -> Option<usize> {
-    let slack = (first.min(graph.len() - first) / 50).clamp(1, 64).cast_signed();
-    let outer = |beyond: &[bool], node: usize| {
-        graph[node].iter().filter(|other| beyond[**other] != beyond[node]).count()
-    };
-    let gain_of = |outer: usize, node: usize| 2 * outer.cast_signed() - graph[node].len().cast_signed();
-    let mut size = 0;
-    let mut gain = vec![0; graph.len()];
-    let mut border = Vec::new();
-    for (node, gain) in gain.iter_mut().enumerate() {
-        let cut = outer(beyond, node);
-        *gain = gain_of(cut, node);
-        size += cut;
-        if cut > 0 {
-            border.push(node);
+/// Two halves and the cut between them. A pass costs what moves, not the whole graph.
+struct Cut<'a> {
+    graph: &'a Neighbours,
+    beyond: &'a mut [bool],
+    /// Nodes in the first half, less those wanted there.
+    excess: isize,
+    /// How far that may stray while nodes move.
+    slack: isize,
+    /// How many edges are cut.
+    size: usize,
+    /// Of every node how many edges less are cut when it moves.
+    gain: Vec<isize>,
+    /// The nodes with a cut edge, rising.
+    border: Vec<usize>,
+    /// Whether a node moved in the pass that runs.
+    moved: Vec<bool>,
+}
+
+impl<'a> Cut<'a> {
+    fn of(graph: &'a Neighbours, first: usize, beyond: &'a mut [bool]) -> Self {
+        let mut cut = Self {
+            excess: beyond.iter().filter(|beyond| !**beyond).count().cast_signed() - first.cast_signed(),
+            slack: (first.min(graph.len() - first) / 50).clamp(1, 64).cast_signed(),
+            size: 0,
+            gain: vec![0; graph.len()],
+            border: Vec::new(),
+            moved: vec![false; graph.len()],
+            graph,
+            beyond,
+        };
+        for node in 0..graph.len() {
+            let outer = cut.outer(node);
+            cut.gain[node] = 2 * outer.cast_signed() - graph[node].len().cast_signed();
+            cut.size += outer;
+            if outer > 0 {
+                cut.border.push(node);
+            }
+        }
+        cut.size /= 2;
+        cut
+    }
+
+    fn outer(&self, node: usize) -> usize {
+        self.graph[node].iter().filter(|other| self.beyond[**other] != self.beyond[node]).count()
+    }
+
+    /// Moves a node to the other half.
+    fn flip(&mut self, node: usize) {
+        let half = self.beyond[node];
+        self.beyond[node] = !half;
+        self.excess += if half { 1 } else { -1 };
+        self.size = self.size.saturating_add_signed(-self.gain[node]);
+        self.gain[node] = -self.gain[node];
+        for &other in &self.graph[node] {
+            self.gain[other] += if self.beyond[other] == half { 2 } else { -2 };
         }
     }
-    size /= 2;
-    random.shuffle(&mut border);
-    let mut buckets = Buckets { nodes: Default::default() };
-    for &node in &border {
-        buckets.push(beyond[node], gain[node], node);
+
+    /// Finds the border anew after some nodes moved.
+    fn renew_border(&mut self, moved: &[usize]) {
+        let near = moved.iter().flat_map(|node| &self.graph[*node]);
+        let mut border: Vec<usize> = moved.iter().chain(near).chain(&self.border).copied().collect();
+        border.sort_unstable();
+        border.dedup();
+        border.retain(|node| self.outer(*node) > 0);
+        self.border = border;
     }
-    let mut excess = beyond.iter().filter(|beyond| !**beyond).count().cast_signed() - first.cast_signed();
-    let mut moved = vec![false; graph.len()];
-    let mut moves = Vec::new();
-    let mut best = (excess == 0).then_some((size, 0));
-    let patience = PATIENCE.max(border.len());
-    while best.is_none_or(|(_, at)| moves.len() < at + patience) {
+
+    /// One pass: every node moves once at most, the best first; then back to the best state with exact sizes. Where it met
+    /// none, there is an excess.
+    fn pass(&mut self, random: &mut Random) {
+        let mut border = self.border.clone();
+        random.shuffle(&mut border);
+        let mut buckets = Buckets { nodes: Default::default() };
+        for &node in &border {
+            buckets.push(self.beyond[node], self.gain[node], node);
+        }
+        let mut moves = Vec::new();
+        let mut best = (self.excess == 0).then_some((self.size, 0));
+        let patience = PATIENCE.max(border.len());
+        while best.is_none_or(|(_, at)| moves.len() < at + patience) {
+            let Some(node) = self.choose(&mut buckets) else { break };
+            self.moved[node] = true;
+            self.flip(node);
+            moves.push(node);
+            for &other in &self.graph[node] {
+                if !self.moved[other] {
+                    buckets.push(self.beyond[other], self.gain[other], other);
+                }
+            }
+            if self.excess == 0 && best.is_none_or(|(least, _)| self.size < least) {
+                best = Some((self.size, moves.len()));
+            }
+        }
+        for node in &moves {
+            self.moved[*node] = false;
+        }
+        if let Some((_, kept)) = best {
+            for node in &moves[kept..] {
+                self.flip(*node);
+            }
+        }
+        self.renew_border(&moves);
+    }
+
+    /// The node to move next: one with the highest gain, from the half that is too large by more than the slack.
+    fn choose(&self, buckets: &mut Buckets) -> Option<usize> {
         let mut top = |half: bool| {
             buckets
-                .top(half, |node, level| !moved[node] && beyond[node] == half && gain[node] == level)
+                .top(half, |node, level| {
+                    !self.moved[node] && self.beyond[node] == half && self.gain[node] == level
+                })
                 .map(|(gain, node)| (gain, node, half))
         };
-        let choice = if excess >= slack {
+        let choice = if self.excess >= self.slack {
             top(false)
-        } else if excess <= -slack {
+        } else if self.excess <= -self.slack {
             top(true)
         } else {
             // Of equals the one that helps the sizes.
             let (near, far) = (top(false), top(true));
-            near.into_iter().chain(far).max_by_key(|(gain, _, half)| (*gain, *half == (excess < 0)))
+            near.into_iter().chain(far).max_by_key(|(gain, _, half)| (*gain, *half == (self.excess < 0)))
         };
-        let Some((won, node, half)) = choice else { break };
-        moved[node] = true;
-        beyond[node] = !half;
-        excess += if half { 1 } else { -1 };
-        size = size.saturating_add_signed(-won);
-        moves.push(node);
-        for &other in &graph[node] {
-            gain[other] += if beyond[other] == half { 2 } else { -2 };
-            if !moved[other] {
-                buckets.push(beyond[other], gain[other], other);
-            }
-        }
-        if excess == 0 && best.is_none_or(|(least, _)| size < least) {
-            best = Some((size, moves.len()));
-        }
+        choice.map(|(_, node, _)| node)
     }
-    let (size, kept) = best?;
-    for node in moves.drain(kept..) {
-        beyond[node] = !beyond[node];
+
+    /// Moves all pieces of a half but the largest to the other half; says how many nodes that are.
+    fn gather_strays(&mut self, half: bool) -> usize {
+        let mut of_half = pieces(self.graph, |node| self.beyond[node] == half);
+        let Some(largest) = (0..of_half.len()).max_by_key(|number| of_half[*number].len()) else { return 0 };
+        of_half.swap_remove(largest);
+        let strays = of_half.concat();
+        for node in &strays {
+            self.flip(*node);
+        }
+        self.renew_border(&strays);
+        strays.len()
     }
-    Some(size)
 }
 
 #[cfg(test)]
