@@ -1,5 +1,6 @@
 //! Piles from arcs of one strip: the search over strips, the places to cut them and the layouts of their piles.
 
+use crate::adjacency::Adjacency;
 use crate::arcs::Stack;
 use crate::bridge_tree;
 use crate::cuts::Cuts;
@@ -23,7 +24,7 @@ const LAYOUTS: usize = 24;
 ///
 /// # Errors
 /// No strip, or no room for the piles; the message says what was tried.
-pub(crate) fn find(dual: &Dual, neighbours: &[Vec<usize>], request: &Request) -> Result<Bridged, PlanError> {
+pub(crate) fn find(dual: &Dual, neighbours: &Adjacency, request: &Request) -> Result<Bridged, PlanError> {
     let mut search = Search::new(request, neighbours.len());
     for number in 0..STRIPS {
         let seed = request.seed.wrapping_add(number.wrapping_mul(0x9E37_79B9));

@@ -1,6 +1,7 @@
 //! Piles from parts with few edges between them: partition, rings, placement, matching. The other way beside arcs of one
 //! strip; it reaches numbers of piles that arcs don't.
 
+use crate::adjacency::Adjacency;
 use crate::at_once::at_once;
 use crate::dual::Dual;
 use crate::hamiltonian::Strip;
@@ -66,7 +67,7 @@ pub struct NoMatch {
 /// The search's end, which proves nothing.
 pub(crate) fn find(
     dual: &Dual,
-    neighbours: &[Vec<usize>],
+    neighbours: &Adjacency,
     request: &Request,
     effort: Effort,
 ) -> Result<Bridged, NoMatch> {
@@ -98,7 +99,7 @@ pub(crate) fn find(
 }
 
 /// Two partitions, made at once: the one of which more parts have a ring, or else the one that cuts fewer edges.
-fn ringed(neighbours: &[Vec<usize>], all: &[usize], piles: usize, random: &mut Random) -> Option<Ringed> {
+fn ringed(neighbours: &Adjacency, all: &[usize], piles: usize, random: &mut Random) -> Option<Ringed> {
     let partition = |seed: u64| {
         let mut random = Random::new(seed, 2);
         let parts = partition::split(neighbours, all, piles, &mut random)?;
@@ -114,7 +115,7 @@ fn ringed(neighbours: &[Vec<usize>], all: &[usize], piles: usize, random: &mut R
 /// Parts on their cells.
 struct Placed<'a> {
     dual: &'a Dual,
-    neighbours: &'a [Vec<usize>],
+    neighbours: &'a Adjacency,
     parts: &'a [Vec<usize>],
     cells: &'a [[i32; 2]],
     request: &'a Request,
@@ -197,7 +198,7 @@ fn distance(a: [i32; 2], b: [i32; 2]) -> u32 {
 }
 
 /// The cut edges between parts.
-pub(crate) fn weights(neighbours: &[Vec<usize>], parts: &[Vec<usize>]) -> Weights {
+pub(crate) fn weights(neighbours: &Adjacency, parts: &[Vec<usize>]) -> Weights {
     let mut part_of = vec![0; neighbours.len()];
     for (number, part) in parts.iter().enumerate() {
         for panel in part {

@@ -1,6 +1,7 @@
 //! Which panels are neighbours: the dual graph of a surface, with the pairing rule where two sheets touch along an edge.
 //! The Hamiltonian search and the arcs walk on it.
 
+use crate::adjacency::Adjacency;
 use crate::square::{self, At, Point};
 use crate::surface::{Surface, SurfaceError};
 
@@ -71,8 +72,8 @@ impl Dual {
     }
 
     /// The neighbours of every panel, without the edges.
-    pub(crate) fn neighbours(&self) -> Vec<Vec<usize>> {
-        self.across.iter().map(|edges| edges.iter().flatten().map(|across| across.panel).collect()).collect()
+    pub(crate) fn neighbours(&self) -> Adjacency {
+        self.across.iter().map(|edges| edges.iter().flatten().map(|across| across.panel)).collect()
     }
 
     fn join_two(&mut self, surface: &Surface, a: &Flank, b: &Flank) -> Result<(), SurfaceError> {

@@ -8,6 +8,7 @@
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
 
+mod adjacency;
 mod alternatives;
 mod arcs;
 mod at_once;

@@ -1,20 +1,20 @@
 //! The tree path as a graph: how deep it is, and where its middle lies.
 
+use crate::adjacency::Adjacency;
 use crate::plan::Hinge;
 
 /// For every panel the panels that a hinge joins it to.
-pub(crate) fn joined(panels: usize, hinges: &[Hinge]) -> Vec<Vec<usize>> {
-    let mut joined = vec![Vec::new(); panels];
+pub(crate) fn joined(panels: usize, hinges: &[Hinge]) -> Adjacency {
+    let mut joined = Adjacency::without_edges(panels);
     for hinge in hinges {
         let [a, b] = hinge.panels;
-        joined[a].push(b);
-        joined[b].push(a);
+        joined.join(a, b);
     }
     joined
 }
 
 /// The panel from which no other is farther than needs be, and that distance in hinges.
-pub(crate) fn centre(joined: &[Vec<usize>]) -> (usize, usize) {
+pub(crate) fn centre(joined: &Adjacency) -> (usize, usize) {
     let one_end = farthest(joined, 0).pop().unwrap_or(0);
     // The longest way in a tree begins at the panel farthest from any panel; the tree's middle is the middle of that way.
     let way = farthest(joined, one_end);
@@ -23,7 +23,7 @@ pub(crate) fn centre(joined: &[Vec<usize>]) -> (usize, usize) {
 }
 
 /// The way from a panel to the one farthest from it.
-fn farthest(joined: &[Vec<usize>], start: usize) -> Vec<usize> {
+fn farthest(joined: &Adjacency, start: usize) -> Vec<usize> {
     let mut from = vec![usize::MAX; joined.len()];
     from[start] = start;
     let mut reached = vec![start];
@@ -52,16 +52,15 @@ mod tests {
 
     #[test]
     fn the_centre_of_a_strip_is_its_middle() {
-        let strip: Vec<Vec<usize>> = (0..7)
-            .map(|n: usize| [n.wrapping_sub(1), n + 1].into_iter().filter(|m| *m < 7).collect())
-            .collect();
+        let strip: Adjacency =
+            (0..7).map(|n: usize| [n.wrapping_sub(1), n + 1].into_iter().filter(|m| *m < 7)).collect();
         assert_eq!(centre(&strip), (3, 3));
-        assert_eq!(centre(&[vec![]]), (0, 0));
+        assert_eq!(centre(&Adjacency::without_edges(1)), (0, 0));
     }
 
     #[test]
     fn the_centre_of_a_star_with_one_long_arm_is_on_the_arm() {
-        let star = vec![vec![1, 2, 3], vec![0], vec![0], vec![0, 4], vec![3, 5], vec![4]];
+        let star = [vec![1, 2, 3], vec![0], vec![0], vec![0, 4], vec![3, 5], vec![4]].into_iter().collect();
         assert_eq!(centre(&star), (3, 2));
     }
 }

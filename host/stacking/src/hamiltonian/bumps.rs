@@ -4,6 +4,7 @@
 //! board, and a strip that has passed by the bump would have to visit one more panel of one colour than of the other.
 
 use super::Strip;
+use crate::adjacency::Adjacency;
 
 /// A panel with four sides around it, and the panel beyond each side where there is one.
 struct Bump {
@@ -15,7 +16,7 @@ struct Bump {
 /// A graph with bumps made panels, and the way back.
 pub(super) struct Flattened {
     /// The neighbours of every panel that is left, by new numbers.
-    pub(super) neighbours: Vec<Vec<usize>>,
+    pub(super) neighbours: Adjacency,
     /// The old number of every panel that is left.
     left: Vec<usize>,
     /// The bumps in the order in which they went; each has become its top.
@@ -25,28 +26,26 @@ pub(super) struct Flattened {
 }
 
 /// Makes panels of all bumps; none when there is no bump.
-pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
+pub(super) fn flatten(neighbours: &Adjacency) -> Option<Flattened> {
     let mut waiting: Vec<usize> =
         (0..neighbours.len()).rev().filter(|top| bump(neighbours, *top).is_some()).collect();
     if waiting.is_empty() {
         return None;
     }
-    let mut near = neighbours.to_vec();
+    let mut near = neighbours.clone();
     let mut gone = vec![false; near.len()];
     let mut bumps = Vec::new();
     while let Some(top) = waiting.pop() {
         let Some(bump) = Some(top).filter(|top| !gone[*top]).and_then(|top| bump(&near, top)) else {
             continue;
         };
-        near[top].clear();
+        near.clear(top);
         for (side, beyond) in bump.sides.into_iter().zip(bump.beyond) {
             gone[side] = true;
-            near[side].clear();
+            near.clear(side);
             if let Some(beyond) = beyond {
-                near[top].push(beyond);
-                for place in near[beyond].iter_mut().filter(|place| **place == side) {
-                    *place = top;
-                }
+                near.push(top, beyond);
+                near.replace(beyond, side, top);
             }
         }
         // What stands beside may be the top of a bump now, and so may this.
@@ -58,7 +57,7 @@ pub(super) fn flatten(neighbours: &[Vec<usize>]) -> Option<Flattened> {
     for (new, old) in left.iter().enumerate() {
         number[*old] = new;
     }
-    let kept = left.iter().map(|old| near[*old].iter().map(|near| number[*near]).collect()).collect();
+    let kept = left.iter().map(|old| near[*old].iter().map(|near| number[*near])).collect();
     Some(Flattened { neighbours: kept, left, bumps, panels: near.len() })
 }
 
@@ -129,8 +128,8 @@ impl Bump {
 }
 
 /// The bump of which a panel is the top.
-fn bump(near: &[Vec<usize>], top: usize) -> Option<Bump> {
-    let Ok([a, b, c, d]) = <[usize; 4]>::try_from(near[top].as_slice()) else { return None };
+fn bump(near: &Adjacency, top: usize) -> Option<Bump> {
+    let Ok([a, b, c, d]) = <[usize; 4]>::try_from(&near[top]) else { return None };
     let joins = |u: usize, v: usize| near[u].contains(&v);
     // In the order in which they stand around the top.
     let sides = match (joins(a, b), joins(a, c), joins(a, d)) {
@@ -142,11 +141,7 @@ fn bump(near: &[Vec<usize>], top: usize) -> Option<Bump> {
     let mut beyond = [None; 4];
     for turn in 0..4 {
         let (side, next, before) = (sides[turn], sides[(turn + 1) % 4], sides[(turn + 3) % 4]);
-        if !joins(side, next)
-            || !joins(side, before)
-            || joins(side, sides[(turn + 2) % 4])
-            || near[side].len() > 4
-        {
+        if !joins(side, next) || !joins(side, before) || joins(side, sides[(turn + 2) % 4]) {
             return None;
         }
         beyond[turn] = near[side].iter().copied().find(|other| ![top, next, before].contains(other));
@@ -164,21 +159,15 @@ mod tests {
     use crate::random::Random;
 
     /// Puts a voxel on a panel.
-    fn raise(neighbours: &mut Vec<Vec<usize>>, panel: usize) {
-        let beyond = std::mem::take(&mut neighbours[panel]);
+    fn raise(neighbours: &mut Adjacency, panel: usize) {
+        let beyond = neighbours[panel].to_vec();
+        neighbours.clear(panel);
         let first = neighbours.len();
         for (turn, out) in beyond.iter().enumerate() {
             let sides = beyond.len();
-            neighbours.push(vec![
-                panel,
-                *out,
-                first + (turn + 1) % sides,
-                first + (turn + sides - 1) % sides,
-            ]);
-            neighbours[panel].push(first + turn);
-            for place in neighbours[*out].iter_mut().filter(|place| **place == panel) {
-                *place = first + turn;
-            }
+            neighbours.add([panel, *out, first + (turn + 1) % sides, first + (turn + sides - 1) % sides]);
+            neighbours.push(panel, first + turn);
+            neighbours.replace(*out, panel, first + turn);
         }
     }
 

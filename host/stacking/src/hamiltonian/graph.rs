@@ -1,15 +1,17 @@
 //! The graph that a cycle is sought in: the panels, and for a path the apex that neighbours them all.
 
+use crate::adjacency::Adjacency;
+
 /// Panels by number; the apex, where there is one, has the number after the last.
 pub(super) struct Graph<'a> {
-    neighbours: &'a [Vec<usize>],
+    neighbours: &'a Adjacency,
     with_apex: bool,
     /// Edges that the cycle should keep to, sorted, the lower node first.
     lanes: Vec<(usize, usize)>,
 }
 
 impl<'a> Graph<'a> {
-    pub(super) fn new(neighbours: &'a [Vec<usize>], with_apex: bool) -> Self {
+    pub(super) fn new(neighbours: &'a Adjacency, with_apex: bool) -> Self {
         Self { neighbours, with_apex, lanes: Vec::new() }
     }
 
@@ -48,7 +50,7 @@ impl<'a> Graph<'a> {
 
     /// The panels beside a panel. The apex has none of its own: searches treat it apart, so as not to try all panels.
     pub(super) fn neighbours(&self, node: usize) -> &'a [usize] {
-        self.neighbours.get(node).map_or(&[], Vec::as_slice)
+        if node < self.neighbours.len() { &self.neighbours[node] } else { &[] }
     }
 
     /// Whether an edge joins two different nodes.

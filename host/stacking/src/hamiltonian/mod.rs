@@ -21,6 +21,7 @@ mod segments;
 mod trails;
 mod two_factor;
 
+use crate::adjacency::Adjacency;
 use crate::random::Random;
 use graph::Graph;
 
@@ -83,7 +84,7 @@ pub enum NoStrip {
 ///
 /// # Errors
 /// A proof that there is none, or the search's end.
-pub(crate) fn find(neighbours: &[Vec<usize>], seed: u64) -> Result<Strip, NoStrip> {
+pub(crate) fn find(neighbours: &Adjacency, seed: u64) -> Result<Strip, NoStrip> {
     let panels = neighbours.len();
     if panels <= 2 {
         return Ok(Strip { order: (0..panels).collect(), closed: false });
@@ -116,7 +117,7 @@ pub(crate) fn find(neighbours: &[Vec<usize>], seed: u64) -> Result<Strip, NoStri
 /// Finds a cycle through all panels of a part, or a path where no cycle is asked for, with little effort: there are other
 /// parts. It keeps to the edges of the lanes as far as they can be kept.
 pub(crate) fn find_in_part(
-    neighbours: &[Vec<usize>],
+    neighbours: &Adjacency,
     lanes: &[(usize, usize)],
     closed: bool,
     seed: u64,
@@ -153,25 +154,23 @@ mod tests {
     use super::*;
 
     /// A flat sheet of panels.
-    pub(super) fn sheet(width: usize, depth: usize) -> Vec<Vec<usize>> {
+    pub(super) fn sheet(width: usize, depth: usize) -> Adjacency {
         let number = |x: usize, y: usize| y * width + x;
-        let mut neighbours = vec![Vec::new(); width * depth];
+        let mut neighbours = Adjacency::without_edges(width * depth);
         for y in 0..depth {
             for x in 0..width {
                 if x + 1 < width {
-                    neighbours[number(x, y)].push(number(x + 1, y));
-                    neighbours[number(x + 1, y)].push(number(x, y));
+                    neighbours.join(number(x, y), number(x + 1, y));
                 }
                 if y + 1 < depth {
-                    neighbours[number(x, y)].push(number(x, y + 1));
-                    neighbours[number(x, y + 1)].push(number(x, y));
+                    neighbours.join(number(x, y), number(x, y + 1));
                 }
             }
         }
         neighbours
     }
 
-    pub(super) fn assert_strip(neighbours: &[Vec<usize>], strip: &Strip) {
+    pub(super) fn assert_strip(neighbours: &Adjacency, strip: &Strip) {
         let mut sorted = strip.order.clone();
         sorted.sort_unstable();
         assert_eq!(sorted, (0..neighbours.len()).collect::<Vec<_>>());
@@ -206,22 +205,19 @@ mod tests {
 
     #[test]
     fn a_cross_of_five_panels_has_too_many_dead_ends() {
-        let cross = vec![vec![1, 2, 3, 4], vec![0], vec![0], vec![0], vec![0]];
+        let cross = [vec![1, 2, 3, 4], vec![0], vec![0], vec![0], vec![0]].into_iter().collect();
         assert_eq!(find(&cross, 0), Err(NoStrip::DeadEnds { count: 4, first: vec![1, 2, 3] }));
     }
 
     #[test]
     fn a_sheet_with_three_more_dark_panels_than_light_ones_has_no_strip() {
         // 5 x 5 less two light panels in the middle of opposite sides: 13 dark, 10 light.
-        let mut neighbours = sheet(5, 5);
+        let neighbours = sheet(5, 5);
         let gone = [11, 13];
-        for list in &mut neighbours {
-            list.retain(|n| !gone.contains(n));
-        }
         let kept: Vec<usize> = (0..25).filter(|n| !gone.contains(n)).collect();
-        let renumbered: Vec<Vec<usize>> = kept
+        let renumbered: Adjacency = kept
             .iter()
-            .map(|n| neighbours[*n].iter().filter_map(|m| kept.iter().position(|k| k == m)).collect())
+            .map(|n| neighbours[*n].iter().filter_map(|m| kept.iter().position(|k| k == m)))
             .collect();
         assert_eq!(find(&renumbered, 0), Err(NoStrip::Colours { dark: 13, light: 10 }));
     }

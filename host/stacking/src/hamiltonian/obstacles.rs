@@ -1,13 +1,14 @@
 //! Cheap proofs that there is no strip, or no closed one, before any search.
 
 use super::NoStrip;
+use crate::adjacency::Adjacency;
 use std::cmp::Ordering;
 
 /// Says whether a cycle is possible as far as these tests can tell.
 ///
 /// # Errors
 /// A proof that there is not even a path.
-pub(super) fn look_for(neighbours: &[Vec<usize>]) -> Result<bool, NoStrip> {
+pub(super) fn look_for(neighbours: &Adjacency) -> Result<bool, NoStrip> {
     let dead_ends: Vec<usize> = (0..neighbours.len()).filter(|panel| neighbours[*panel].len() < 2).collect();
     if dead_ends.len() > 2 {
         return Err(NoStrip::DeadEnds { count: dead_ends.len(), first: dead_ends[..3].to_vec() });
@@ -22,7 +23,7 @@ pub(super) fn look_for(neighbours: &[Vec<usize>]) -> Result<bool, NoStrip> {
 }
 
 /// How many panels of a connected graph get each of two colours when neighbours differ; none where that can't be.
-fn colours(neighbours: &[Vec<usize>]) -> Option<(usize, usize)> {
+fn colours(neighbours: &Adjacency) -> Option<(usize, usize)> {
     let mut colour = vec![None; neighbours.len()];
     colour[0] = Some(true);
     let mut reached = vec![0];

@@ -2,6 +2,7 @@
 //! ones closes a loop, so a fold on that loop is broken: bridges less breaks are always K - 1.
 
 use super::{Matched, align, beyond, turning};
+use crate::adjacency::Adjacency;
 use crate::arcs::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
@@ -147,7 +148,7 @@ fn grown(
 ) -> Option<(Vec<Joint>, Vec<[usize; 2]>)> {
     let panels = piles.iter().map(Vec::len).sum();
     let mut group: Vec<usize> = (0..panels).collect();
-    let mut across = vec![Vec::new(); panels];
+    let mut across = Adjacency::without_edges(panels);
     let mut bridges = Vec::new();
     for candidate in fitting {
         let [a, b] = candidate.joint.panels;
@@ -155,21 +156,19 @@ fn grown(
         if group_a != group_b {
             group[group_a] = group_b;
             bridges.push(candidate.joint);
-            across[a].push(b);
-            across[b].push(a);
+            across.join(a, b);
         }
     }
-    let mut folds = vec![Vec::new(); panels];
+    let mut folds = Adjacency::without_edges(panels);
     for (pile, turns) in piles.iter().zip(turned) {
         for (pair, turn) in pile.windows(2).zip(turns.windows(2)) {
             if turn[0] == turn[1] {
-                folds[pair[0]].push(pair[1]);
-                folds[pair[1]].push(pair[0]);
+                folds.join(pair[0], pair[1]);
             }
         }
     }
     let mut start = piles[0][piles[0].len() / 2];
-    let mut joined = Vec::new();
+    let mut joined = Adjacency::without_edges(0);
     for _ in 0..REGROWTHS {
         joined = grow(start, &across, &folds)?;
         start = tree_path::centre(&joined).0;
@@ -180,8 +179,8 @@ fn grown(
 }
 
 /// The tree from one panel: whoever is reached brings all panels along that bridges join it to.
-fn grow(start: usize, across: &[Vec<usize>], folds: &[Vec<usize>]) -> Option<Vec<Vec<usize>>> {
-    let mut joined: Vec<Vec<usize>> = across.to_vec();
+fn grow(start: usize, across: &Adjacency, folds: &Adjacency) -> Option<Adjacency> {
+    let mut joined = across.clone();
     let mut seen = vec![false; across.len()];
     seen[start] = true;
     let mut count = 1;
@@ -202,8 +201,7 @@ fn grow(start: usize, across: &[Vec<usize>], folds: &[Vec<usize>]) -> Option<Vec
             waiting.pop_front();
             continue;
         };
-        joined[panel].push(other);
-        joined[other].push(panel);
+        joined.join(panel, other);
         seen[other] = true;
         count += 1;
         waiting.push_back(other);

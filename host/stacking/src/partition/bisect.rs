@@ -1,7 +1,8 @@
 //! Two connected halves of exact sizes with few edges between them: a first cut half way between two far nodes or by
 //! breadth-first growth, refined as Fiduccia and Mattheyses do (DAC 1982), where only a state of exact sizes counts.
 
-use super::{Neighbours, pieces};
+use super::pieces;
+use crate::adjacency::Adjacency;
 use crate::random::Random;
 
 /// Degrees are four at most, so gains lie between -4 and 4.
@@ -19,7 +20,7 @@ const MOST_CUTS: usize = 8;
 
 /// Splits a connected graph into a connected half of `first` nodes (false) and a connected rest (true); none where no cut
 /// left both in one piece.
-pub(super) fn bisect(graph: &Neighbours, first: usize, random: &mut Random) -> Option<Vec<bool>> {
+pub(super) fn bisect(graph: &Adjacency, first: usize, random: &mut Random) -> Option<Vec<bool>> {
     let tries = (EFFORT / graph.len().max(1)).clamp(FEWEST_CUTS, MOST_CUTS);
     let mut best: Option<(usize, Vec<bool>)> = None;
     for number in 0..tries {
@@ -40,7 +41,7 @@ pub(super) fn bisect(graph: &Neighbours, first: usize, random: &mut Random) -> O
 /// Betters a cut until both halves are in one piece, `first` nodes in the half that is not beyond. Says how many edges are
 /// cut; none where the halves did not come out whole.
 pub(super) fn refine(
-    graph: &Neighbours,
+    graph: &Adjacency,
     first: usize,
     beyond: &mut [bool],
     random: &mut Random,
@@ -66,7 +67,7 @@ pub(super) fn refine(
     None
 }
 
-fn growth(graph: &Neighbours, random: &mut Random) -> Vec<usize> {
+fn growth(graph: &Adjacency, random: &mut Random) -> Vec<usize> {
     let mut order = reached(graph, random.below(graph.len())).0;
     let far = order[order.len() - 1];
     order = reached(graph, far).0;
@@ -74,7 +75,7 @@ fn growth(graph: &Neighbours, random: &mut Random) -> Vec<usize> {
 }
 
 /// The nodes in the order of their distance to one of two far nodes less that to the other.
-fn between(graph: &Neighbours, random: &mut Random) -> Vec<usize> {
+fn between(graph: &Adjacency, random: &mut Random) -> Vec<usize> {
     let start = reached(graph, random.below(graph.len())).0;
     let (order, from_one) = reached(graph, start[start.len() - 1]);
     let (mut order, from_other) = reached(graph, order[order.len() - 1]);
@@ -83,7 +84,7 @@ fn between(graph: &Neighbours, random: &mut Random) -> Vec<usize> {
 }
 
 /// The nodes in breadth-first order from one, and the distance of each.
-fn reached(graph: &Neighbours, start: usize) -> (Vec<usize>, Vec<usize>) {
+fn reached(graph: &Adjacency, start: usize) -> (Vec<usize>, Vec<usize>) {
     let mut distance = vec![usize::MAX; graph.len()];
     distance[start] = 0;
     let mut order = Vec::with_capacity(graph.len());
@@ -129,7 +130,7 @@ impl Buckets {
 
 /// Two halves and the cut between them. A pass costs what moves, not the whole graph.
 struct Cut<'a> {
-    graph: &'a Neighbours,
+    graph: &'a Adjacency,
     beyond: &'a mut [bool],
     /// Nodes in the first half, less those wanted there.
     excess: isize,
@@ -146,7 +147,7 @@ struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    fn of(graph: &'a Neighbours, first: usize, beyond: &'a mut [bool]) -> Self {
+    fn of(graph: &'a Adjacency, first: usize, beyond: &'a mut [bool]) -> Self {
         let mut cut = Self {
             excess: beyond.iter().filter(|beyond| !**beyond).count().cast_signed() - first.cast_signed(),
             slack: (first.min(graph.len() - first) / 50).clamp(1, 64).cast_signed(),
@@ -271,7 +272,7 @@ impl<'a> Cut<'a> {
 mod tests {
     use super::*;
 
-    fn sheet(width: usize, depth: usize) -> Vec<Vec<usize>> {
+    fn sheet(width: usize, depth: usize) -> Adjacency {
         let number = |x: usize, y: usize| y * width + x;
         let near = |x: usize, y: usize| {
             let mut near = Vec::new();

@@ -21,8 +21,7 @@ pub(crate) use lanes::Borders;
 pub(crate) use rings::{Keeping, Ringed, again, rings};
 pub(crate) use split::{edges_cut, split};
 
-/// For every panel its neighbours.
-pub(crate) type Neighbours = [Vec<usize>];
+use crate::adjacency::Adjacency;
 
 /// Numbers panels of a part from 0 on; made once for a graph and used for all its parts.
 pub(crate) struct Numbering {
@@ -36,13 +35,13 @@ impl Numbering {
     }
 
     /// The neighbours within a part: node i is `members[i]`.
-    pub(crate) fn within(&mut self, neighbours: &Neighbours, members: &[usize]) -> Vec<Vec<usize>> {
+    pub(crate) fn within(&mut self, neighbours: &Adjacency, members: &[usize]) -> Adjacency {
         for (number, panel) in members.iter().enumerate() {
             self.number[*panel] = number;
         }
         let inner = |panel: &usize| {
             let all = neighbours[*panel].iter().map(|other| self.number[*other]);
-            all.filter(|number| *number != usize::MAX).collect()
+            all.filter(|number| *number != usize::MAX)
         };
         let part = members.iter().map(inner).collect();
         for panel in members {
@@ -53,7 +52,7 @@ impl Numbering {
 }
 
 /// The pieces of the nodes that `keeps` keeps, each in the order in which it was reached.
-fn pieces(graph: &Neighbours, keeps: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+fn pieces(graph: &Adjacency, keeps: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let mut seen = vec![false; graph.len()];
     let mut pieces = Vec::new();
     for start in 0..graph.len() {

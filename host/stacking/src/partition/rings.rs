@@ -4,7 +4,8 @@
 use super::settle::settle;
 use super::shortened::Shortened;
 use super::sound::Part;
-use super::{Neighbours, Numbering, split};
+use super::{Numbering, split};
+use crate::adjacency::Adjacency;
 use crate::hamiltonian::{self, Strip};
 use crate::random::Random;
 use std::collections::BTreeMap;
@@ -32,7 +33,7 @@ pub(crate) struct Ringed {
 
 impl Ringed {
     /// Looks for a ring in every part, without changing any.
-    pub(crate) fn of(neighbours: &Neighbours, parts: Vec<Vec<usize>>, random: &mut Random) -> Self {
+    pub(crate) fn of(neighbours: &Adjacency, parts: Vec<Vec<usize>>, random: &mut Random) -> Self {
         let mut numbering = Numbering::new(neighbours.len());
         let rings = parts.iter().map(|part| ring(neighbours, part, &mut numbering, random)).collect();
         Self { parts, rings }
@@ -47,7 +48,7 @@ impl Ringed {
 /// Recuts the parts that have no ring; none where that did not end well. Parts of an odd number of panels on a flat sheet have
 /// no cycle whatever the cut, so there a path will do.
 pub(crate) fn rings(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     ringed: Ringed,
     random: &mut Random,
 ) -> Option<(Vec<Vec<usize>>, Vec<Strip>)> {
@@ -103,7 +104,7 @@ pub(crate) enum Keeping {
 
 /// Another ring through the same part, that runs along lanes.
 pub(crate) fn again(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     part: &[usize],
     lanes: &[Vec<usize>],
     keeping: Keeping,
@@ -121,7 +122,7 @@ pub(crate) fn again(
 }
 
 /// A cycle that runs along lanes from end to end: all of those that leave the rest without defects, or else halves of them.
-fn lanes_kept(graph: &Neighbours, lanes: &[Vec<usize>], random: &mut Random) -> Option<Strip> {
+fn lanes_kept(graph: &Adjacency, lanes: &[Vec<usize>], random: &mut Random) -> Option<Strip> {
     let mut kept: Vec<Vec<usize>> = Vec::new();
     let mut waiting: Vec<Vec<usize>> = lanes.iter().rev().cloned().collect();
     while let Some(lane) = waiting.pop() {
@@ -143,7 +144,7 @@ fn lanes_kept(graph: &Neighbours, lanes: &[Vec<usize>], random: &mut Random) -> 
 }
 
 fn ring(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     part: &[usize],
     numbering: &mut Numbering,
     random: &mut Random,
@@ -153,7 +154,7 @@ fn ring(
 }
 
 /// A cycle, or where none can be or is found, a path: thin branches and odd parts of flat sheets often have no more.
-fn search(graph: &Neighbours, lanes: &[(usize, usize)], random: &mut Random) -> Option<Strip> {
+fn search(graph: &Adjacency, lanes: &[(usize, usize)], random: &mut Random) -> Option<Strip> {
     let mut found = None;
     if defects(graph) == 0 {
         found = hamiltonian::find_in_part(graph, lanes, true, random.next());
@@ -163,7 +164,7 @@ fn search(graph: &Neighbours, lanes: &[(usize, usize)], random: &mut Random) -> 
 
 /// A part and so many less one around it, each chosen by the length of its border with those before.
 fn group(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     parts: &[Vec<usize>],
     part: usize,
     count: usize,
@@ -202,6 +203,6 @@ fn group(
 }
 
 /// What keeps a part from having a cycle.
-fn defects(graph: &Neighbours) -> usize {
+fn defects(graph: &Adjacency) -> usize {
     Part { graph, name_of: &vec![0; graph.len()], name: 0 }.defects()
 }

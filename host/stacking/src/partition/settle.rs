@@ -1,8 +1,9 @@
 //! Parts exchange panels across their borders until cheap tests find nothing that keeps them from having a cycle each. The
 //! colours of a chess board are the usual matter: a cut as short as can be seldom leaves as many dark panels as light ones.
 
+use super::Numbering;
 use super::sound::Part;
-use super::{Neighbours, Numbering};
+use crate::adjacency::Adjacency;
 use crate::random::Random;
 
 /// Panels looked at in all exchanges together, and the least and most exchanges that makes.
@@ -12,7 +13,7 @@ const MOST: usize = 80;
 
 /// Exchanges panels between parts that touch while they have defects, and once at least where they are to stray.
 pub(super) fn settle(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     parts: &mut [Vec<usize>],
     stray: bool,
     numbering: &mut Numbering,
@@ -66,7 +67,7 @@ fn spots(part: Part<'_>) -> Vec<usize> {
 /// Two panels to change places, each at the border with the other's part; the first or the other near one of the spots, if
 /// there are any at the border.
 fn exchange(
-    graph: &Neighbours,
+    graph: &Adjacency,
     part_of: &[usize],
     part: usize,
     spots: &[usize],

@@ -1,13 +1,13 @@
 //! A part with its lanes shortened to three panels each: both ends, and one between them that neighbours the ends alone. A
 //! cycle must run through that one, so lengthened again it runs along the whole lane.
 
-use super::Neighbours;
+use crate::adjacency::Adjacency;
 use crate::hamiltonian::Strip;
 
 /// A shortened part.
 pub(super) struct Shortened<'a> {
     /// Its graph.
-    pub(super) graph: Vec<Vec<usize>>,
+    pub(super) graph: Adjacency,
     /// Of every node its number in the part.
     nodes: Vec<usize>,
     /// Of every node of the part the lane that it stands for.
@@ -16,7 +16,7 @@ pub(super) struct Shortened<'a> {
 
 impl<'a> Shortened<'a> {
     /// Shortens lanes of three panels at least that have no panel in common.
-    pub(super) fn of(part: &Neighbours, lanes: &'a [Vec<usize>]) -> Self {
+    pub(super) fn of(part: &Adjacency, lanes: &'a [Vec<usize>]) -> Self {
         let mut lane = vec![None; part.len()];
         let mut kept = vec![true; part.len()];
         for row in lanes {
@@ -31,18 +31,18 @@ impl<'a> Shortened<'a> {
         for (short, node) in nodes.iter().enumerate() {
             number[*node] = short;
         }
-        let mut graph: Vec<Vec<usize>> = nodes
+        let mut graph: Adjacency = nodes
             .iter()
             .map(|node| {
                 let near = part[*node].iter().filter(|near| kept[**near] && lane[**near].is_none());
-                near.map(|near| number[*near]).collect()
+                near.map(|near| number[*near])
             })
             .collect();
         for row in lanes {
             let (first, middle, last) = (number[row[0]], number[row[1]], number[row[row.len() - 1]]);
-            graph[middle] = vec![first, last];
-            graph[first].push(middle);
-            graph[last].push(middle);
+            graph.clear(middle);
+            graph.join(middle, first);
+            graph.join(middle, last);
         }
         Self { graph, nodes, lane }
     }
@@ -84,7 +84,7 @@ mod tests {
             near.extend((x < 4).then_some(node + 1));
             near
         };
-        let part: Vec<Vec<usize>> = (0..10).map(near).collect();
+        let part: Adjacency = (0..10).map(near).collect();
         let lanes = [vec![0, 1, 2, 3, 4]];
         let shortened = Shortened::of(&part, &lanes);
         assert_eq!(shortened.graph.len(), 8);

@@ -1,11 +1,12 @@
 //! Cheap proofs that a part has no Hamiltonian cycle, before any search for one.
 
-use super::{Neighbours, pieces};
+use super::pieces;
+use crate::adjacency::Adjacency;
 
 /// Some nodes of a graph: those that bear the name of one part.
 #[derive(Clone, Copy)]
 pub(super) struct Part<'a> {
-    pub(super) graph: &'a Neighbours,
+    pub(super) graph: &'a Adjacency,
     /// Of every node the name of its part.
     pub(super) name_of: &'a [usize],
     pub(super) name: usize,
@@ -109,15 +110,14 @@ impl<'a> Part<'a> {
 mod tests {
     use super::*;
 
-    fn defects(graph: &Neighbours) -> usize {
+    fn defects(graph: &Adjacency) -> usize {
         Part { graph, name_of: &vec![0; graph.len()], name: 0 }.defects()
     }
 
-    fn graph(nodes: usize, edges: &[(usize, usize)]) -> Vec<Vec<usize>> {
-        let mut graph = vec![Vec::new(); nodes];
+    fn graph(nodes: usize, edges: &[(usize, usize)]) -> Adjacency {
+        let mut graph = Adjacency::without_edges(nodes);
         for (a, b) in edges {
-            graph[*a].push(*b);
-            graph[*b].push(*a);
+            graph.join(*a, *b);
         }
         graph
     }

@@ -1,7 +1,8 @@
 //! K parts of exactly equal size: by halves, then pair by pair once more.
 
+use super::Numbering;
 use super::bisect::{bisect, refine};
-use super::{Neighbours, Numbering};
+use crate::adjacency::Adjacency;
 use crate::random::Random;
 use std::collections::BTreeSet;
 
@@ -15,7 +16,7 @@ const ROUNDS: usize = 4;
 /// Splits the members into `count` parts of equal size, each in one piece; none where no cut left them so. Of two ways the one
 /// that cuts fewer edges: by halves, or part after part from an end, which suits long shapes.
 pub(crate) fn split(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     members: &[usize],
     count: usize,
     random: &mut Random,
@@ -30,7 +31,7 @@ pub(crate) fn split(
 }
 
 /// How many edges join different parts.
-pub(crate) fn edges_cut(neighbours: &Neighbours, parts: &[Vec<usize>]) -> usize {
+pub(crate) fn edges_cut(neighbours: &Adjacency, parts: &[Vec<usize>]) -> usize {
     let within = |part: &Vec<usize>| {
         let near = part.iter().flat_map(|panel| &neighbours[*panel]);
         near.filter(|other| part.binary_search(other).is_ok()).count()
@@ -40,7 +41,7 @@ pub(crate) fn edges_cut(neighbours: &Neighbours, parts: &[Vec<usize>]) -> usize 
 }
 
 fn split_by(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     members: &[usize],
     count: usize,
     first_of: impl Fn(usize) -> usize,
@@ -72,7 +73,7 @@ fn split_by(
 }
 
 /// Moves the border between every two parts that touch, where that cuts fewer edges.
-fn polish(neighbours: &Neighbours, parts: &mut [Vec<usize>], numbering: &mut Numbering, random: &mut Random) {
+fn polish(neighbours: &Adjacency, parts: &mut [Vec<usize>], numbering: &mut Numbering, random: &mut Random) {
     let mut part_of = vec![usize::MAX; neighbours.len()];
     for (number, part) in parts.iter().enumerate() {
         for panel in part {
@@ -85,12 +86,19 @@ fn polish(neighbours: &Neighbours, parts: &mut [Vec<usize>], numbering: &mut Num
         .map(|(a, b)| (part_of[a], part_of[b]))
         .filter(|(a, b)| a < b && *b != usize::MAX)
         .collect();
+    // A pair is looked at again only when one of the two changed.
+    let mut changed = vec![true; parts.len()];
     for _ in 0..ROUNDS {
-        let mut bettered = false;
+        let before = std::mem::replace(&mut changed, vec![false; parts.len()]);
         for &(a, b) in &pairs {
-            bettered |= polish_pair(neighbours, parts, [a, b], numbering, random);
+            if (before[a] || before[b] || changed[a] || changed[b])
+                && polish_pair(neighbours, parts, [a, b], numbering, random)
+            {
+                changed[a] = true;
+                changed[b] = true;
+            }
         }
-        if !bettered {
+        if !changed.contains(&true) {
             break;
         }
     }
@@ -98,7 +106,7 @@ fn polish(neighbours: &Neighbours, parts: &mut [Vec<usize>], numbering: &mut Num
 
 /// The same for two parts; says whether it did.
 fn polish_pair(
-    neighbours: &Neighbours,
+    neighbours: &Adjacency,
     parts: &mut [Vec<usize>],
     [a, b]: [usize; 2],
     numbering: &mut Numbering,
