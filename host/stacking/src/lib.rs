@@ -36,6 +36,7 @@ mod random;
 mod readers;
 mod reconfigure;
 mod sequence;
+mod sets;
 mod square;
 mod strip_changes;
 mod strip_plan;

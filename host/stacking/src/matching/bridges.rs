@@ -7,6 +7,7 @@ use crate::dual::Dual;
 use crate::folding_map::Facing;
 use crate::plan::Side;
 use crate::planner::Bridges;
+use crate::sets::Sets;
 use crate::tree_path;
 use std::collections::VecDeque;
 
@@ -126,12 +127,11 @@ fn candidates(dual: &Dual, matched: &Matched) -> Vec<Candidate> {
 /// A spanning tree of the piles, of bridges as near to half height as can be.
 fn spanning(mut fitting: Vec<Candidate>, piles: usize, height: usize) -> Option<Vec<Joint>> {
     fitting.sort_by_key(|candidate| (2 * candidate.height + 1).abs_diff(height));
-    let mut group: Vec<usize> = (0..piles).collect();
+    let mut groups = Sets::new(piles);
     let mut bridges = Vec::with_capacity(piles);
     for candidate in fitting {
-        let [a, b] = candidate.joint.piles.map(|pile| root(&mut group, pile));
-        if a != b {
-            group[a] = b;
+        let [a, b] = candidate.joint.piles;
+        if groups.join(a, b) {
             bridges.push(candidate.joint);
         }
     }
@@ -146,14 +146,12 @@ fn grown(
     fitting: &[Candidate],
 ) -> Option<(Vec<Joint>, Vec<[usize; 2]>)> {
     let panels = piles.iter().map(Vec::len).sum();
-    let mut group: Vec<usize> = (0..panels).collect();
+    let mut groups = Sets::new(panels);
     let mut across = vec![Vec::new(); panels];
     let mut bridges = Vec::new();
     for candidate in fitting {
         let [a, b] = candidate.joint.panels;
-        let (group_a, group_b) = (root(&mut group, a), root(&mut group, b));
-        if group_a != group_b {
-            group[group_a] = group_b;
+        if groups.join(a, b) {
             bridges.push(candidate.joint);
             across[a].push(b);
             across[b].push(a);
@@ -210,13 +208,4 @@ fn grow(start: usize, across: &[Vec<usize>], folds: &[Vec<usize>]) -> Option<Vec
         together.push(other);
     }
     (count == across.len()).then_some(joined)
-}
-
-/// The name of the set that a member is in.
-pub(super) fn root(group: &mut [usize], mut member: usize) -> usize {
-    while group[member] != member {
-        group[member] = group[group[member]];
-        member = group[member];
-    }
-    member
 }

@@ -12,6 +12,7 @@ pub(crate) use grid::Grid;
 pub(crate) use weights::Weights;
 
 use crate::random::Random;
+use crate::sets::Sets;
 
 /// Up to so many cells every placement is tried.
 const EXACT: usize = 8;
@@ -72,19 +73,15 @@ impl Site<'_> {
     }
 
     fn worth(&self, on: &[Option<usize>]) -> Worth {
-        let mut group: Vec<usize> = (0..self.parts()).collect();
         let mut groups = self.parts();
+        let mut sets = Sets::new(groups);
         let mut weight = 0;
         for (cell, part) in on.iter().enumerate() {
             for other in self.grid.beside(cell).filter(|other| *other > cell) {
                 let (Some(a), Some(b)) = (*part, on[other]) else { continue };
                 let shared = self.weights.of(a, b);
                 weight += shared;
-                let (group_a, group_b) = (root(&mut group, a), root(&mut group, b));
-                if shared > 0 && group_a != group_b {
-                    group[group_a] = group_b;
-                    groups -= 1;
-                }
+                groups -= usize::from(shared > 0 && sets.join(a, b));
             }
         }
         Worth { less_groups: -groups.cast_signed(), weight }
@@ -114,14 +111,6 @@ pub(crate) fn bound(weights: &Weights, grid: Grid) -> usize {
     edges.sort_unstable_by(|a, b| b.cmp(a));
     let by_edges: usize = edges.iter().take(degrees.iter().sum::<usize>() / 2).sum();
     by_edges.min(twice / 2)
-}
-
-fn root(group: &mut [usize], mut part: usize) -> usize {
-    while group[part] != part {
-        group[part] = group[group[part]];
-        part = group[part];
-    }
-    part
 }
 
 /// Tries all placements.
