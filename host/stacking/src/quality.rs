@@ -1,7 +1,7 @@
 //! How good a plan is beside others of the same model.
 
-use crate::by_parts;
 use crate::dual::Dual;
+use crate::partition::Weights;
 use crate::placement::{self, Grid};
 use crate::plan::{HingeKind, Plan};
 use crate::readers::Model;
@@ -31,7 +31,7 @@ pub struct Quality {
 pub fn quality(model: &Model, plan: &Plan) -> Quality {
     let dual: &Dual = &model.dual;
     let parts: Vec<Vec<usize>> = plan.piles.iter().map(|pile| pile.panels.clone()).collect();
-    let weights = by_parts::weights(&dual.neighbours(), &parts);
+    let weights = Weights::between(&parts, &dual.neighbours());
     let cell = |pile: usize| plan.piles[pile].cell;
     let near = |a: usize, b: usize| {
         let ([ax, ay], [bx, by]) = (cell(a), cell(b));
