@@ -3,7 +3,7 @@
 //! ```text
 //! model file -> readers -> Surface (unit squares, dual graph)
 //!     -> partition, a cycle in every part -> placement -> matching    \
-//!     -> one cycle -> arcs -> layout                                  -> Plan -> plan.fold
+//!     -> one cycle -> arcs (cuts, layout)                             -> Plan -> plan.fold
 //! ```
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
@@ -11,18 +11,15 @@
 mod alternatives;
 mod arcs;
 mod at_once;
-mod bridge_tree;
-mod by_arcs;
 mod by_parts;
 mod check;
 mod cut_edges;
-mod cuts;
 mod dual;
 pub mod fold;
 mod folding_map;
 mod hamiltonian;
 mod hinges;
-mod layout;
+mod joint;
 mod matching;
 mod mesh;
 mod net;

@@ -2,7 +2,7 @@
 //! `zygote plan` calls it.
 
 use crate::at_once::at_once;
-use crate::by_arcs;
+use crate::arcs;
 use crate::by_parts::{self, Effort, NoMatch};
 use crate::hamiltonian::NoStrip;
 use crate::hinges;
@@ -170,7 +170,7 @@ impl PlanError {
 pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     check_request(model.surface.len(), request)?;
     let neighbours = model.dual.neighbours();
-    let by_arcs = || by_arcs::find(&model.dual, &neighbours, request);
+    let by_arcs = || arcs::find(&model.dual, &neighbours, request);
     let by_parts = |effort| by_parts::find(&model.dual, &neighbours, request, effort);
     let plan = |found| into_plan(found, model, request);
     match request.partition {

@@ -1,7 +1,7 @@
 //! The plan whose tree path is a strip: its arcs are stacked upwards and downwards in turn, and joined where the strip runs
 //! on. The strip leaves no choice, so the piles find room or don't. `net_search` asks for it.
 
-use crate::arcs::Joint;
+use crate::joint::Joint;
 use crate::folding_map::Facing;
 use crate::matching::Bridged;
 use crate::plan::Plan;

@@ -3,7 +3,7 @@
 
 use super::border::{BorderEdge, borders, places};
 use super::{Matched, align, turning};
-use crate::arcs::Joint;
+use crate::joint::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
 use crate::plan::Side;
