@@ -11,6 +11,7 @@
 mod alternatives;
 mod arcs;
 mod at_once;
+mod bridge_bound;
 mod by_parts;
 mod check;
 mod cut_edges;

@@ -1,8 +1,8 @@
 //! From a model to a plan: piles from parts with few edges between them or from arcs of a strip, then hinges. The command
 //! `zygote plan` calls it.
 
-use crate::at_once::at_once;
 use crate::arcs;
+use crate::at_once::at_once;
 use crate::by_parts::{self, Effort, NoMatch};
 use crate::hamiltonian::NoStrip;
 use crate::hinges;

@@ -5,9 +5,9 @@
 //! stand equally high when i = j (mod h), should both arcs run the same way, or i + j + 1 = 2 o (mod h) where they run
 //! against each other. So every pair of neighbours belongs to one remainder of h, and a way of cutting to one as well.
 
-use crate::joint::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
+use crate::joint::Joint;
 use crate::plan::Side;
 
 /// A strip and the bridges that cutting it can give.

@@ -3,9 +3,9 @@
 
 use super::border::{BorderEdge, borders, places};
 use super::{Matched, align, turning};
-use crate::joint::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
+use crate::joint::Joint;
 use crate::plan::Side;
 use crate::planner::Bridges;
 use crate::sets::Sets;
