@@ -123,10 +123,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (bytes, report) = checked(&plan)?;
     write_file(&arguments.output, &bytes)?;
     say(format_args!("{}: {}", arguments.output.display(), summary(&report.figures)));
-    let Quality { depth, cut, beside, bridge_bound, .. } = quality(&model, &plan);
+    let Quality { depth, cut, beside, beside_bound, bridge_bound, .. } = quality(&model, &plan);
     say(format_args!(
         "breaks: {}, depth of the tree path: {depth}, cut edges: {cut}, of which between neighbouring piles: {beside} \
-         (of these piles at most {bridge_bound} can be bridges)",
+         of at most {beside_bound} (of these piles at most {bridge_bound} can be bridges)",
         report.figures.breaks
     ));
     say(format_args!("root: panel {}", plan.root));

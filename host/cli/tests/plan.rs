@@ -15,6 +15,9 @@ fn a_plan_is_written_and_its_summary_printed() {
         run.output
     );
     assert!(run.output.contains("can be bridges)\nroot: panel "), "{}", run.output);
+    let (_, beside) = run.output.split_once("between neighbouring piles: ").unwrap_or_default();
+    let numbers: Vec<usize> = beside.split(' ').filter_map(|word| word.parse().ok()).collect();
+    assert!(matches!(numbers[..], [beside, most, ..] if 0 < beside && beside <= most), "{}", run.output);
     assert_eq!(place.files(), ["fish.fold"]);
 }
 

@@ -3,6 +3,8 @@
 #![expect(clippy::print_stdout, reason = "its output is what it is for")]
 #![expect(clippy::unwrap_used, reason = "a tool for developers, as tests are")]
 
+#[path = "../tests/boundary/mod.rs"]
+mod boundary;
 #[path = "../tests/grown/mod.rs"]
 mod grown;
 

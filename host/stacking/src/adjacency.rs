@@ -25,11 +25,6 @@ impl Adjacency {
         self.rows.len()
     }
 
-    /// The neighbours of every node.
-    pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = &[usize]> {
-        self.rows.iter().map(filled)
-    }
-
     /// Adds a node.
     #[cfg(test)]
     pub(crate) fn add(&mut self, near: [usize; MOST]) {

@@ -6,8 +6,8 @@ use crate::at_once::at_once;
 use crate::dual::Dual;
 use crate::hamiltonian::Strip;
 use crate::matching::{self, Bridged, Opener};
-use crate::partition::{self, Borders, Keeping, Numbering, Ringed};
-use crate::placement::{self, Grid, Weights};
+use crate::partition::{self, Borders, Keeping, Numbering, Ringed, Weights};
+use crate::placement::{self, Grid};
 use crate::planner::{Bridges, Request};
 use crate::random::Random;
 
@@ -82,7 +82,7 @@ pub(crate) fn find(
         let Some(ringed) = ringed(neighbours, &all, piles, &mut random) else { continue };
         let Some((parts, rings)) = partition::rings(neighbours, ringed, &mut random) else { continue };
         tried.ringed += 1;
-        let weights = weights(neighbours, &parts);
+        let weights = Weights::between(&parts, neighbours);
         for grid in grids.iter().take(shapes) {
             let placement = placement::place(&weights, *grid, &mut random);
             if !placement.worth.whole() {
@@ -109,7 +109,7 @@ fn ringed(neighbours: &Adjacency, all: &[usize], piles: usize, random: &mut Rand
     let (one, other) = at_once(|| partition(seeds[0]), || partition(seeds[1]));
     one.into_iter()
         .chain(other)
-        .min_by_key(|ringed| (ringed.lack(), partition::edges_cut(neighbours, &ringed.parts)))
+        .min_by_key(|ringed| (ringed.lack(), Weights::between(&ringed.parts, neighbours).total()))
 }
 
 /// Parts on their cells.
@@ -195,23 +195,6 @@ impl Placed<'_> {
 /// How many cells apart two cells are.
 fn distance(a: [i32; 2], b: [i32; 2]) -> u32 {
     a[0].abs_diff(b[0]) + a[1].abs_diff(b[1])
-}
-
-/// The cut edges between parts.
-pub(crate) fn weights(neighbours: &Adjacency, parts: &[Vec<usize>]) -> Weights {
-    let mut part_of = vec![0; neighbours.len()];
-    for (number, part) in parts.iter().enumerate() {
-        for panel in part {
-            part_of[*panel] = number;
-        }
-    }
-    let mut weights = Weights::new(parts.len());
-    for (a, near) in neighbours.iter().enumerate() {
-        for &b in near.iter().filter(|b| a < **b && part_of[a] != part_of[**b]) {
-            weights.add(part_of[a], part_of[b]);
-        }
-    }
-    weights
 }
 
 /// The pile to begin with: one that can't be opened anywhere, else the one with most cut edges.

@@ -1,8 +1,8 @@
 //! The hinges of a stacked zygote with their sides and angles: fold hinges within the piles, bridges between them.
 
-use crate::arcs::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
+use crate::joint::Joint;
 use crate::plan::{Hinge, HingeKind, Side};
 use crate::square::{self, Quad};
 

@@ -3,7 +3,7 @@
 //! ```text
 //! model file -> readers -> Surface (unit squares, dual graph)
 //!     -> partition, a cycle in every part -> placement -> matching    \
-//!     -> one cycle -> arcs -> layout                                  -> Plan -> plan.fold
+//!     -> one cycle -> arcs (cuts, layout)                             -> Plan -> plan.fold
 //! ```
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
@@ -12,18 +12,16 @@ mod adjacency;
 mod alternatives;
 mod arcs;
 mod at_once;
-mod bridge_tree;
-mod by_arcs;
+mod bridge_bound;
 mod by_parts;
 mod check;
 mod cut_edges;
-mod cuts;
 mod dual;
 pub mod fold;
 mod folding_map;
 mod hamiltonian;
 mod hinges;
-mod layout;
+mod joint;
 mod matching;
 mod mesh;
 mod net;
@@ -37,6 +35,7 @@ mod random;
 mod readers;
 mod reconfigure;
 mod sequence;
+mod sets;
 mod square;
 mod strip_changes;
 mod strip_plan;

@@ -1,8 +1,8 @@
 //! From a model to a plan: piles from parts with few edges between them or from arcs of a strip, then hinges. The command
 //! `zygote plan` calls it.
 
+use crate::arcs;
 use crate::at_once::at_once;
-use crate::by_arcs;
 use crate::by_parts::{self, Effort, NoMatch};
 use crate::hamiltonian::NoStrip;
 use crate::hinges;
@@ -170,7 +170,7 @@ impl PlanError {
 pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     check_request(model.surface.len(), request)?;
     let neighbours = model.dual.neighbours();
-    let by_arcs = || by_arcs::find(&model.dual, &neighbours, request);
+    let by_arcs = || arcs::find(&model.dual, &neighbours, request);
     let by_parts = |effort| by_parts::find(&model.dual, &neighbours, request, effort);
     let plan = |found| into_plan(found, model, request);
     match request.partition {

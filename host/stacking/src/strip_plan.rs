@@ -1,8 +1,8 @@
 //! The plan whose tree path is a strip: its arcs are stacked upwards and downwards in turn, and joined where the strip runs
 //! on. The strip leaves no choice, so the piles find room or don't. `net_search` asks for it.
 
-use crate::arcs::Joint;
 use crate::folding_map::Facing;
+use crate::joint::Joint;
 use crate::matching::Bridged;
 use crate::plan::Plan;
 use crate::planner::{self, Request};

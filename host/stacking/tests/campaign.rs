@@ -1,6 +1,7 @@
 //! The short version of the campaign over random solids; `cargo xtask bench stacking` runs the long one.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
+mod boundary;
 mod grown;
 
 #[test]

@@ -3,6 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 #![allow(clippy::format_push_string, reason = "small files, plainly written")]
 
+mod boundary;
+mod lump;
+
+use boundary::{Voxel, boundary};
+use lump::solid;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -105,47 +110,17 @@ fn sheets_that_bound_nothing_are_refused_with_a_place() {
     assert!(strip.contains("of unlike orientation; the first from ("), "{strip}");
 }
 
-/// A solid that grows from one voxel: each number chooses a voxel that is there and a side to grow on.
-fn grown(choices: &[(usize, usize)]) -> BTreeSet<[i32; 3]> {
-    let mut solid = vec![[0; 3]];
-    for (which, side) in choices {
-        let mut next = solid[which % solid.len()];
-        next[side % 3] += if side % 2 == 0 { 1 } else { -1 };
-        if !solid.contains(&next) {
-            solid.push(next);
-        }
-    }
-    solid.into_iter().collect()
-}
-
 /// The boundary of a solid as an OBJ mesh, with corners of its own for every face.
-fn obj(solid: &BTreeSet<[i32; 3]>) -> (String, usize) {
-    let (mut text, mut faces) = (String::new(), 0);
-    for voxel in solid {
-        for (axis, high) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
-            let mut beyond = *voxel;
-            beyond[axis] += if high { 1 } else { -1 };
-            if solid.contains(&beyond) {
-                continue;
-            }
-            let mut quad = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[du, dv]| {
-                let mut corner = *voxel;
-                corner[axis] += i32::from(high);
-                corner[(axis + 1) % 3] += du;
-                corner[(axis + 2) % 3] += dv;
-                corner
-            });
-            if !high {
-                quad.reverse();
-            }
-            for [x, y, z] in quad {
-                text.push_str(&format!("v {x} {y} {z}\n"));
-            }
-            text.push_str("f -4 -3 -2 -1\n");
-            faces += 1;
+fn obj(solid: &BTreeSet<Voxel>) -> (String, usize) {
+    let mut text = String::new();
+    let quads = boundary(solid);
+    for quad in &quads {
+        for [x, y, z] in quad {
+            text.push_str(&format!("v {x} {y} {z}\n"));
         }
+        text.push_str("f -4 -3 -2 -1\n");
     }
-    (text, faces)
+    (text, quads.len())
 }
 
 proptest! {
@@ -157,7 +132,7 @@ proptest! {
         factor in 0.5..8.0_f64,
         number in any::<u32>(),
     ) {
-        let (text, faces) = obj(&grown(&choices));
+        let (text, faces) = obj(&solid(&choices));
         let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("grown_{number}.obj"));
         std::fs::write(&path, text).unwrap();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few thousand")]

@@ -2,55 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
+mod boundary;
+mod lump;
+
+use boundary::boundary;
+use lump::solid;
 use proptest::prelude::*;
-use std::collections::BTreeSet;
 use zygote_stacking::{
     Bridges, Model, Partition, PlanError, Request, Surface, SurfaceError, check, fold, plan,
 };
-
-type Voxel = [i32; 3];
-
-/// A solid that grows from one voxel: each number chooses a voxel that is there and a side to grow on.
-fn solid(choices: &[(usize, usize)]) -> BTreeSet<Voxel> {
-    let mut grown = vec![[0; 3]];
-    for (which, side) in choices {
-        let mut next = grown[which % grown.len()];
-        next[side % 3] += if side % 2 == 0 { 1 } else { -1 };
-        if !grown.contains(&next) {
-            grown.push(next);
-        }
-    }
-    grown.into_iter().collect()
-}
-
-/// The sides of a solid, written down axis by axis and not as the readers do it.
-fn boundary(solid: &BTreeSet<Voxel>) -> Vec<[Voxel; 4]> {
-    let mut quads = Vec::new();
-    for voxel in solid {
-        for axis in 0..3 {
-            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            for high in [false, true] {
-                let mut beyond = *voxel;
-                beyond[axis] += if high { 1 } else { -1 };
-                if !solid.contains(&beyond) {
-                    let corner = |du: i32, dv: i32| {
-                        let mut point = *voxel;
-                        point[axis] += i32::from(high);
-                        point[u] += du;
-                        point[v] += dv;
-                        point
-                    };
-                    let mut quad = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-                    if !high {
-                        quad.reverse();
-                    }
-                    quads.push(quad);
-                }
-            }
-        }
-    }
-    quads
-}
 
 fn request(piles: usize, seed: u64) -> Request {
     Request { piles, seed, ..Request::default() }

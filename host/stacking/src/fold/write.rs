@@ -3,6 +3,7 @@
 use super::SCHEDULE;
 use super::layout_of_lines::KeyALine;
 use crate::plan::{Hinge, HingeKind, Pile, Plan};
+use crate::sets::Sets;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::json;
@@ -167,19 +168,18 @@ enum Faces {
 impl CutSurface {
     fn of(plan: &Plan) -> Self {
         // Corners that a hinge makes one: a forest of corners, numbered 4 * panel + corner.
-        let mut same: Vec<usize> = (0..4 * plan.panels()).collect();
+        let mut same = Sets::new(4 * plan.panels());
         for Hinge { panels: [a, b], edges: [e, f], .. } in &plan.hinges {
             for (corner, other) in [(*e, *f + 1), (*e + 1, *f)] {
-                let (p, q) = (root(&mut same, 4 * a + corner % 4), root(&mut same, 4 * b + other % 4));
-                same[p.max(q)] = p.min(q);
+                same.join(4 * a + corner % 4, 4 * b + other % 4);
             }
         }
-        let mut number = vec![usize::MAX; same.len()];
+        let mut number = vec![usize::MAX; 4 * plan.panels()];
         let mut vertices = 0;
         let mut faces = Vec::with_capacity(plan.panels());
         for panel in 0..plan.panels() {
             faces.push([0, 1, 2, 3].map(|corner| {
-                let name = root(&mut same, 4 * panel + corner);
+                let name = same.find(4 * panel + corner);
                 if number[name] == usize::MAX {
                     number[name] = vertices;
                     vertices += 1;
@@ -226,12 +226,4 @@ impl CutSurface {
         }
         points
     }
-}
-
-fn root(same: &mut [usize], mut corner: usize) -> usize {
-    while same[corner] != corner {
-        same[corner] = same[same[corner]];
-        corner = same[corner];
-    }
-    corner
 }

@@ -1,13 +1,14 @@
 //! Joins cycles by exchanges of two edges: where a square of the graph has opposite edges in two cycles, taking the other
-//! two edges instead makes one cycle of both. Near-linear: cycles are sets that only ever join.
+//! two edges instead makes one cycle of both. Near-linear: cycles are sets.
 
 use super::cover::Cover;
 use super::graph::Graph;
+use crate::sets::Sets;
 use std::collections::VecDeque;
 
 /// Joins cycles until no square joins any more: first without touching the lanes, then anyhow.
 pub(super) fn merge(graph: &Graph<'_>, cover: &mut Cover) {
-    let mut cycles = Sets::new(cover);
+    let mut cycles = cycles_of(cover);
     if !graph.lanes().is_empty() {
         merge_where(graph, cover, &mut cycles, |u, v| !graph.is_lane(u, v));
     }
@@ -59,35 +60,16 @@ fn square(
     None
 }
 
-/// Disjoint sets of nodes.
-struct Sets {
-    parent: Vec<usize>,
-}
-
-impl Sets {
-    /// One set for every cycle of a cover.
-    fn new(cover: &Cover) -> Self {
-        let mut parent = vec![usize::MAX; cover.nodes()];
-        for start in 0..cover.nodes() {
-            if parent[start] == usize::MAX {
-                for node in cover.walk(start) {
-                    parent[node] = start;
-                }
+/// One set for every cycle of a cover.
+fn cycles_of(cover: &Cover) -> Sets {
+    let mut cycles = Sets::new(cover.nodes());
+    for start in 0..cover.nodes() {
+        // Nodes of a cycle that was walked already are in the set of its first one.
+        if cycles.find(start) == start {
+            for node in cover.walk(start) {
+                cycles.join(node, start);
             }
         }
-        Self { parent }
     }
-
-    fn find(&mut self, mut node: usize) -> usize {
-        while self.parent[node] != node {
-            self.parent[node] = self.parent[self.parent[node]];
-            node = self.parent[node];
-        }
-        node
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.parent[a] = b;
-    }
+    cycles
 }

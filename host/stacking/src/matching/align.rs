@@ -6,10 +6,10 @@
 //! ... a x y b ... u u' ...   with a beside b, u beside x, u' beside y   ->   ... a b ... u x y u' ...
 //! ```
 
-use super::{Matched, beyond};
+use super::Matched;
+use super::border::{BorderEdge, borders, places};
 use crate::dual::Dual;
 use crate::folding_map::Facing;
-use crate::plan::Side;
 
 /// Sweeps over all piles.
 const SWEEPS: usize = 6;
@@ -18,16 +18,6 @@ const EFFORT: usize = 1_000_000;
 /// What neighbours at one height are worth that face each other, and others, which a break can turn to face each other.
 const FACING: i32 = 3;
 const LEVEL: i32 = 1;
-
-/// A cut edge between piles that stand side by side, seen from one of them.
-#[derive(Clone, Copy)]
-struct Cut {
-    panel: usize,
-    edge: usize,
-    other: usize,
-    other_edge: usize,
-    towards: Side,
-}
 
 /// Two panels change their place in the pile: those at `from` and the height above go between `to` and the height above,
 /// counted before they leave.
@@ -62,7 +52,7 @@ pub(super) fn align(dual: &Dual, matched: &mut Matched) {
 struct Aligner<'a> {
     dual: &'a Dual,
     piles: Vec<Vec<usize>>,
-    cuts: Vec<Vec<Cut>>,
+    borders: Vec<Vec<BorderEdge>>,
     /// Of every panel its pile and its height there.
     place: Vec<(usize, usize)>,
     /// Of every panel how it lies on its cell.
@@ -72,22 +62,14 @@ struct Aligner<'a> {
 impl<'a> Aligner<'a> {
     fn new(dual: &'a Dual, matched: &Matched) -> Self {
         let mut facing = matched.facing.clone();
-        let mut place = vec![(0, 0); facing.len()];
-        for (pile, panels) in matched.piles.iter().enumerate() {
-            for (height, panel) in panels.iter().enumerate() {
-                place[*panel] = (pile, height);
-                facing[*panel] = facing[*panel].turned(matched.turns[pile]);
+        for (pile, turn) in matched.piles.iter().zip(&matched.turns) {
+            for panel in pile {
+                facing[*panel] = facing[*panel].turned(*turn);
             }
         }
-        let cut = |(panel, edge): (usize, usize)| {
-            let across = dual.across(panel, edge)?;
-            let [here, there] = [panel, across.panel].map(|panel| matched.cells[place[panel].0]);
-            let towards = beyond(here, there)?;
-            Some(Cut { panel, edge, other: across.panel, other_edge: across.edge, towards })
-        };
-        let edges = |panel: &usize| [0, 1, 2, 3].map(|edge| (*panel, edge));
-        let cuts = matched.piles.iter().map(|pile| pile.iter().flat_map(edges).filter_map(cut).collect());
-        Self { dual, cuts: cuts.collect(), piles: matched.piles.clone(), place, facing }
+        let place = places(matched.piles.iter(), facing.len());
+        let borders = borders(dual, matched.piles.iter(), &place, &matched.cells);
+        Self { dual, borders, piles: matched.piles.clone(), place, facing }
     }
 
     /// Makes the move that seems best; says whether it did better.
@@ -108,11 +90,11 @@ impl<'a> Aligner<'a> {
 
     /// What the cut edges of a pile are worth: whether each bridge that exists stays is not looked at, only their number.
     fn worth(&self, pile: usize) -> i32 {
-        let level = |cut: &&Cut| self.place[cut.panel].1 == self.place[cut.other].1;
-        self.cuts[pile].iter().filter(level).map(|cut| self.value(cut)).sum()
+        let level = |cut: &&BorderEdge| self.place[cut.panel].1 == self.place[cut.other].1;
+        self.borders[pile].iter().filter(level).map(|cut| self.value(cut)).sum()
     }
 
-    fn value(&self, cut: &Cut) -> i32 {
+    fn value(&self, cut: &BorderEdge) -> i32 {
         let faces = self.facing[cut.panel].side(cut.edge) == cut.towards
             && self.facing[cut.other].side(cut.other_edge) == cut.towards.opposite();
         if faces { FACING } else { LEVEL }
@@ -141,7 +123,7 @@ impl<'a> Aligner<'a> {
         let mut lower = vec![0; count + 1];
         let mut higher = vec![0; count + 1];
         let mut now = vec![0; count];
-        for cut in &self.cuts[pile] {
+        for cut in &self.borders[pile] {
             let (height, other) = (self.place[cut.panel].1, self.place[cut.other].1);
             let value = self.value(cut);
             if other == height {

@@ -1,13 +1,15 @@
 //! Chooses the bridges among the matches: a spanning tree of piles, or as many as can be. Each bridge beyond the spanning
 //! ones closes a loop, so a fold on that loop is broken: bridges less breaks are always K - 1.
 
-use super::{Matched, align, beyond, turning};
+use super::border::{BorderEdge, borders, places};
+use super::{Matched, align, turning};
 use crate::adjacency::Adjacency;
-use crate::arcs::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
+use crate::joint::Joint;
 use crate::plan::Side;
 use crate::planner::Bridges;
+use crate::sets::Sets;
 use crate::tree_path;
 use std::collections::VecDeque;
 
@@ -90,36 +92,25 @@ fn bridge_as_they_stand(dual: &Dual, matched: Matched, wanted: Bridges) -> Optio
 }
 
 fn candidates(dual: &Dual, matched: &Matched) -> Vec<Candidate> {
-    let mut place = vec![(0, 0); matched.facing.len()];
-    for (pile, panels) in matched.piles.iter().enumerate() {
-        for (height, panel) in panels.iter().enumerate() {
-            place[*panel] = (pile, height);
-        }
-    }
-    let mut candidates = Vec::new();
-    for (pile, panels) in matched.piles.iter().enumerate() {
-        for (height, &panel) in panels.iter().enumerate() {
-            for edge in 0..4 {
-                let Some(across) = dual.across(panel, edge) else { continue };
-                let (other_pile, other_height) = place[across.panel];
-                if other_pile <= pile || other_height != height {
-                    continue;
-                }
-                let Some(towards) = beyond(matched.cells[pile], matched.cells[other_pile]) else { continue };
-                let sides =
-                    [matched.facing[panel].side(edge), matched.facing[across.panel].side(across.edge)];
-                let joint = Joint {
-                    panels: [panel, across.panel],
-                    edges: [edge, across.edge],
-                    piles: [pile, other_pile],
-                    sides,
-                };
-                let turn = |towards: Side, side: Side| (towards as usize + 4 - side as usize) % 4;
-                let turns = [turn(towards, sides[0]), turn(towards.opposite(), sides[1])];
-                candidates.push(Candidate { height, joint, turns });
-            }
-        }
-    }
+    let piles = || matched.piles.iter();
+    let places = places(piles(), matched.facing.len());
+    let borders = borders(dual, piles(), &places, &matched.cells);
+    let candidate = |edge: &BorderEdge| {
+        let [(pile, height), (other_pile, other_height)] =
+            [edge.panel, edge.other].map(|panel| places[panel]);
+        let sides =
+            [matched.facing[edge.panel].side(edge.edge), matched.facing[edge.other].side(edge.other_edge)];
+        let joint = Joint {
+            panels: [edge.panel, edge.other],
+            edges: [edge.edge, edge.other_edge],
+            piles: [pile, other_pile],
+            sides,
+        };
+        let turn = |towards: Side, side: Side| (towards as usize + 4 - side as usize) % 4;
+        let turns = [turn(edge.towards, sides[0]), turn(edge.towards.opposite(), sides[1])];
+        (pile < other_pile && height == other_height).then_some(Candidate { height, joint, turns })
+    };
+    let mut candidates: Vec<Candidate> = borders.iter().flatten().filter_map(candidate).collect();
     candidates.sort_by_key(|candidate| (candidate.height, candidate.joint.panels));
     candidates
 }
@@ -127,12 +118,11 @@ fn candidates(dual: &Dual, matched: &Matched) -> Vec<Candidate> {
 /// A spanning tree of the piles, of bridges as near to half height as can be.
 fn spanning(mut fitting: Vec<Candidate>, piles: usize, height: usize) -> Option<Vec<Joint>> {
     fitting.sort_by_key(|candidate| (2 * candidate.height + 1).abs_diff(height));
-    let mut group: Vec<usize> = (0..piles).collect();
+    let mut groups = Sets::new(piles);
     let mut bridges = Vec::with_capacity(piles);
     for candidate in fitting {
-        let [a, b] = candidate.joint.piles.map(|pile| root(&mut group, pile));
-        if a != b {
-            group[a] = b;
+        let [a, b] = candidate.joint.piles;
+        if groups.join(a, b) {
             bridges.push(candidate.joint);
         }
     }
@@ -147,14 +137,12 @@ fn grown(
     fitting: &[Candidate],
 ) -> Option<(Vec<Joint>, Vec<[usize; 2]>)> {
     let panels = piles.iter().map(Vec::len).sum();
-    let mut group: Vec<usize> = (0..panels).collect();
+    let mut groups = Sets::new(panels);
     let mut across = Adjacency::without_edges(panels);
     let mut bridges = Vec::new();
     for candidate in fitting {
         let [a, b] = candidate.joint.panels;
-        let (group_a, group_b) = (root(&mut group, a), root(&mut group, b));
-        if group_a != group_b {
-            group[group_a] = group_b;
+        if groups.join(a, b) {
             bridges.push(candidate.joint);
             across.join(a, b);
         }
@@ -208,13 +196,4 @@ fn grow(start: usize, across: &Adjacency, folds: &Adjacency) -> Option<Adjacency
         together.push(other);
     }
     (count == across.len()).then_some(joined)
-}
-
-/// The name of the set that a member is in.
-pub(super) fn root(group: &mut [usize], mut member: usize) -> usize {
-    while group[member] != member {
-        group[member] = group[group[member]];
-        member = group[member];
-    }
-    member
 }

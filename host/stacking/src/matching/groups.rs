@@ -1,7 +1,7 @@
 //! Which piles hang together by matches.
 
-use super::bridges::root;
 use crate::random::Random;
+use crate::sets::Sets;
 use std::collections::BTreeSet;
 
 /// The groups of piles.
@@ -15,16 +15,15 @@ pub(crate) struct Groups {
 impl Groups {
     /// The groups of so many piles: of neighbours on the grid it is told whether they match.
     pub(super) fn new(piles: usize, pairs: impl Iterator<Item = ((usize, usize), bool)>) -> Self {
-        let mut group: Vec<usize> = (0..piles).collect();
+        let mut sets = Sets::new(piles);
         let mut all = BTreeSet::new();
         for ((a, b), matches) in pairs {
             all.insert((a, b));
             if matches {
-                let (a, b) = (root(&mut group, a), root(&mut group, b));
-                group[a] = b;
+                sets.join(a, b);
             }
         }
-        Self { of: (0..piles).map(|pile| root(&mut group, pile)).collect(), pairs: all }
+        Self { of: (0..piles).map(|pile| sets.find(pile)).collect(), pairs: all }
     }
 
     /// How many groups there are.

@@ -2,6 +2,7 @@
 //! each other: there a bridge is possible. A cycle can be opened anywhere, so a bridge is arranged and not waited for.
 //!
 //! ```text
+//! border:   the cut edges between piles on neighbouring cells
 //! opening:  what a ring can become
 //! opener:   pile after pile, the opening that joins most groups and matches most
 //! groups:   which piles hang together
@@ -10,6 +11,7 @@
 //! ```
 
 mod align;
+mod border;
 mod bridges;
 mod groups;
 mod opener;

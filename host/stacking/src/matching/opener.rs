@@ -1,29 +1,17 @@
 //! Opens the rings of placed piles, each so that it joins as many groups as can be and matches most.
 
+use super::Matched;
+use super::border::{BorderEdge, borders, places};
 use super::groups::Groups;
 use super::opening::{Frame, Opening};
-use super::{Matched, beyond};
 use crate::dual::Dual;
 use crate::folding_map::Facing;
 use crate::hamiltonian::Strip;
-use crate::plan::Side;
 use crate::planner::Bridges;
 use crate::random::Random;
 
 /// Times that every pile is opened anew at the end.
 const SWEEPS: usize = 3;
-
-/// A cut edge between neighbouring cells, seen from one of its piles.
-#[derive(Debug, Clone, Copy)]
-struct CutEdge {
-    panel: usize,
-    edge: usize,
-    other: usize,
-    other_edge: usize,
-    other_pile: usize,
-    /// The side of the own cell beyond which the other pile stands.
-    towards: Side,
-}
 
 /// A match that some opening would give.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -41,7 +29,7 @@ type Score = (usize, usize, usize, u64);
 pub(crate) struct Opener<'a> {
     dual: &'a Dual,
     frames: Vec<Frame>,
-    borders: Vec<Vec<CutEdge>>,
+    borders: Vec<Vec<BorderEdge>>,
     cells: &'a [[i32; 2]],
     wanted: Bridges,
     /// Of every panel its place in its ring.
@@ -55,21 +43,15 @@ impl<'a> Opener<'a> {
     /// Looks at rings on cells.
     pub(crate) fn new(dual: &'a Dual, rings: &[Strip], cells: &'a [[i32; 2]], wanted: Bridges) -> Self {
         let panels = rings.iter().map(|ring| ring.order.len()).sum();
-        let mut pile_of = vec![0; panels];
-        let mut place = vec![0; panels];
-        for (pile, ring) in rings.iter().enumerate() {
-            for (at, panel) in ring.order.iter().enumerate() {
-                pile_of[*panel] = pile;
-                place[*panel] = at;
-            }
-        }
+        let orders = || rings.iter().map(|ring| &ring.order);
+        let places = places(orders(), panels);
         Self {
             dual,
-            borders: rings.iter().map(|ring| border(dual, &ring.order, &pile_of, cells)).collect(),
+            borders: borders(dual, orders(), &places, cells),
             frames: rings.iter().map(|ring| Frame::of(ring.clone(), dual)).collect(),
             cells,
             wanted,
-            place,
+            place: places.into_iter().map(|(_, at)| at).collect(),
             openings: vec![None; rings.len()],
             settled: vec![(0, Facing::BOTTOM); panels],
         }
@@ -304,7 +286,7 @@ impl<'a> Opener<'a> {
         let pairs = self.borders.iter().enumerate().flat_map(|(pile, border)| {
             border.iter().filter(move |cut| cut.other_pile > pile).map(move |cut| (pile, cut))
         });
-        let matches = |pile: usize, cut: &CutEdge| {
+        let matches = |pile: usize, cut: &BorderEdge| {
             gone != Some(pile) && gone != Some(cut.other_pile) && self.is_match(cut)
         };
         Groups::new(self.frames.len(), pairs.map(|(pile, cut)| ((pile, cut.other_pile), matches(pile, cut))))
@@ -317,22 +299,10 @@ impl<'a> Opener<'a> {
         all.filter(|cut| self.is_match(cut)).count()
     }
 
-    fn is_match(&self, cut: &CutEdge) -> bool {
+    fn is_match(&self, cut: &BorderEdge) -> bool {
         let ((height, facing), (level, other)) = (self.settled[cut.panel], self.settled[cut.other]);
         height == level
             && facing.side(cut.edge) == cut.towards
             && other.side(cut.other_edge) == cut.towards.opposite()
     }
-}
-
-/// The cut edges between a pile and those on the cells beside it.
-fn border(dual: &Dual, order: &[usize], pile_of: &[usize], cells: &[[i32; 2]]) -> Vec<CutEdge> {
-    let edges = order.iter().flat_map(|panel| (0..4).map(move |edge| (*panel, edge)));
-    let cut_edge = |(panel, edge): (usize, usize)| {
-        let across = dual.across(panel, edge)?;
-        let other_pile = pile_of[across.panel];
-        let towards = beyond(cells[pile_of[panel]], cells[other_pile])?;
-        Some(CutEdge { panel, edge, other: across.panel, other_edge: across.edge, other_pile, towards })
-    };
-    edges.filter_map(cut_edge).collect()
 }

@@ -3,7 +3,8 @@
 //!
 //! A climb: turns change over a range of heights, in one pile or in two at once, while that makes more bridges fit.
 
-use super::bridges::{Candidate, root};
+use super::bridges::Candidate;
+use crate::sets::Sets;
 use std::collections::BTreeMap;
 
 /// Rounds over all piles.
@@ -166,15 +167,9 @@ impl<'a> Climb<'a> {
         for (pile, stops) in self.stops.iter().enumerate() {
             offset[pile + 1] = offset[pile] + stops.len();
         }
-        let mut group: Vec<usize> = (0..offset[self.stops.len()]).collect();
-        let mut groups = group.len();
-        let mut join = |a: usize, b: usize| {
-            let (a, b) = (root(&mut group, a), root(&mut group, b));
-            if a != b {
-                group[a] = b;
-                groups -= 1;
-            }
-        };
+        let mut pieces = offset[self.stops.len()];
+        let mut sets = Sets::new(pieces);
+        let mut join = |a: usize, b: usize| pieces -= usize::from(sets.join(a, b));
         for (pile, turns) in self.turns.iter().enumerate() {
             for (number, pair) in turns.windows(2).enumerate() {
                 if pair[0] == pair[1] {
@@ -187,6 +182,6 @@ impl<'a> Climb<'a> {
             let [at_a, at_b] = self.number[candidate];
             join(offset[a] + at_a, offset[b] + at_b);
         }
-        groups <= 1
+        pieces <= 1
     }
 }

@@ -6,7 +6,8 @@
 //! cones' own share is then taken off it. So the work grows with the open edges, not with the mesh.
 
 use super::{Corner, Triangle, cross, dot, minus};
-use std::collections::BTreeMap;
+use crate::sets::Sets;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 /// Tips are moved by these shares of their cone's size, so that no cone is flat: a centre on it would be on neither side.
@@ -34,26 +35,31 @@ pub(super) struct Hole {
 
 /// Closes a mesh: a cone over each group of open edges that hang together.
 pub(super) fn holes(open: &[Open], corners: &[Corner]) -> Vec<Hole> {
-    let mut group: BTreeMap<usize, usize> =
-        open.iter().flat_map(|edge| edge.ends).map(|end| (end, end)).collect();
+    let mut groups = Sets::new(corners.len());
     for Open { ends: [a, b], .. } in open {
-        let (a, b) = (root(&group, *a), root(&group, *b));
-        group.insert(a.max(b), a.min(b));
+        groups.join(*a, *b);
     }
-    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for &end in group.keys() {
-        members.entry(root(&group, end)).or_default().push(end);
+    let all: BTreeSet<usize> = open.iter().flat_map(|edge| edge.ends).collect();
+    // Groups in the order of their lowest ends.
+    let mut hole_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut members: Vec<Vec<usize>> = Vec::new();
+    for end in all {
+        let hole = *hole_of.entry(groups.find(end)).or_insert(members.len());
+        if hole == members.len() {
+            members.push(Vec::new());
+        }
+        members[hole].push(end);
     }
-    let mut holes: BTreeMap<usize, Hole> = BTreeMap::new();
-    for (group, ends) in members {
+    let hole = |ends: Vec<usize>| {
         let at = || ends.iter().map(|end| corners[*end]);
         let middle = [0, 1, 2].map(|axis| at().map(|corner| corner[axis]).sum::<f64>() / ends.len() as f64);
         let radius =
             at().map(|corner| dot(minus(corner, middle), minus(corner, middle))).fold(0.0, f64::max).sqrt();
-        holes.insert(group, Hole { cone: Vec::new(), middle, radius, normal: [0.0; 3] });
-    }
+        Hole { cone: Vec::new(), middle, radius, normal: [0.0; 3] }
+    };
+    let mut holes: Vec<Hole> = members.into_iter().map(hole).collect();
     for Open { ends: [from, to], excess } in open {
-        let Some(hole) = holes.get_mut(&root(&group, *from)) else { continue };
+        let hole = &mut holes[hole_of[&groups.find(*from)]];
         let tip = [0, 1, 2].map(|axis| hole.middle[axis] + hole.radius * TIP_SHIFT[axis]);
         let [a, b, c] = [corners[*to], corners[*from], tip];
         let part = cross(minus(b, a), minus(c, a));
@@ -62,7 +68,7 @@ pub(super) fn holes(open: &[Open], corners: &[Corner]) -> Vec<Hole> {
             hole.cone.push([a, b, c]);
         }
     }
-    holes.into_values().collect()
+    holes
 }
 
 /// How often the cones over all holes wind round a point. From afar a cone is as good as a small flat patch.
@@ -77,13 +83,6 @@ pub(super) fn share_of(holes: &[Hole], point: Corner) -> f64 {
         }
     };
     holes.iter().map(share).sum()
-}
-
-fn root(group: &BTreeMap<usize, usize>, mut end: usize) -> usize {
-    while let Some(&next) = group.get(&end).filter(|next| **next != end) {
-        end = next;
-    }
-    end
 }
 
 /// How often triangles wind round a point, counter-clockwise from outside: each by its solid angle (van Oosterom, Strackee,

@@ -1,6 +1,7 @@
 //! Lanes along the borders of parts. Where two parts run side by side for a while, both cycles should run along the border:
 //! then all panels of that run come to equal heights at once, and each pair of them can be a bridge.
 
+use super::part_of;
 use crate::dual::Dual;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,13 +16,7 @@ pub(crate) struct Borders<'a> {
 
 impl<'a> Borders<'a> {
     pub(crate) fn of(dual: &'a Dual, parts: &[Vec<usize>]) -> Self {
-        let mut part_of = vec![usize::MAX; parts.iter().map(Vec::len).sum()];
-        for (number, part) in parts.iter().enumerate() {
-            for panel in part {
-                part_of[*panel] = number;
-            }
-        }
-        Self { dual, part_of }
+        Self { dual, part_of: part_of(parts, parts.iter().map(Vec::len).sum()) }
     }
 
     /// The lanes of a part along its borders with the parts that are wanted: rows of neighbours of three panels at least,

@@ -16,12 +16,25 @@ mod settle;
 mod shortened;
 mod sound;
 mod split;
+mod weights;
 
 pub(crate) use lanes::Borders;
 pub(crate) use rings::{Keeping, Ringed, again, rings};
-pub(crate) use split::{edges_cut, split};
+pub(crate) use split::split;
+pub(crate) use weights::Weights;
 
 use crate::adjacency::Adjacency;
+
+/// Of every one of so many panels the part that it is in; `usize::MAX` where it is in none.
+fn part_of(parts: &[Vec<usize>], panels: usize) -> Vec<usize> {
+    let mut part_of = vec![usize::MAX; panels];
+    for (number, part) in parts.iter().enumerate() {
+        for panel in part {
+            part_of[*panel] = number;
+        }
+    }
+    part_of
+}
 
 /// Numbers panels of a part from 0 on; made once for a graph and used for all its parts.
 pub(crate) struct Numbering {

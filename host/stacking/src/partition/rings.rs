@@ -4,7 +4,7 @@
 use super::settle::settle;
 use super::shortened::Shortened;
 use super::sound::Part;
-use super::{Numbering, split};
+use super::{Numbering, part_of, split};
 use crate::adjacency::Adjacency;
 use crate::hamiltonian::{self, Strip};
 use crate::random::Random;
@@ -170,12 +170,7 @@ fn group(
     count: usize,
     random: &mut Random,
 ) -> Vec<usize> {
-    let mut part_of = vec![usize::MAX; neighbours.len()];
-    for (number, part) in parts.iter().enumerate() {
-        for panel in part {
-            part_of[*panel] = number;
-        }
-    }
+    let part_of = part_of(parts, neighbours.len());
     let mut group = vec![part];
     while group.len() < count.min(parts.len()) {
         let mut border: BTreeMap<usize, usize> = BTreeMap::new();

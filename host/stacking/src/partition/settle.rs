@@ -86,15 +86,13 @@ fn exchange(
         return None;
     }
     let (node, beyond) = first_from[random.below(first_from.len())];
-    let of_pair = border.iter().filter(|(_, other)| part_of[*other] == part_of[beyond]);
-    let [mut leaving, mut coming]: [Vec<usize>; 2] = [vec![node], vec![beyond]];
+    let of_pair: Vec<(usize, usize)> =
+        border.iter().filter(|(_, other)| part_of[*other] == part_of[beyond]).copied().collect();
     // One of them anywhere along the border, so that the sizes stay as they are.
-    if random.below(2) == 0 {
-        leaving.extend(of_pair.map(|(node, _)| *node));
-        leaving.swap_remove(0);
-    } else {
-        coming.extend(of_pair.map(|(_, other)| *other));
-        coming.swap_remove(0);
-    }
-    Some([leaving[random.below(leaving.len())], coming[random.below(coming.len())]])
+    let node_anywhere = random.below(2) == 0;
+    let lots = if node_anywhere { [of_pair.len(), 1] } else { [1, of_pair.len()] };
+    let [lot, other_lot] = lots.map(|count| random.below(count));
+    // Lots count from the last pair on: seeds keep their plans.
+    let anywhere = of_pair[(lot + other_lot + of_pair.len() - 1) % of_pair.len()];
+    Some(if node_anywhere { [anywhere.0, beyond] } else { [node, anywhere.1] })
 }

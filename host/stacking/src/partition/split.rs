@@ -1,7 +1,7 @@
 //! K parts of exactly equal size: by halves, then pair by pair once more.
 
-use super::Numbering;
 use super::bisect::{bisect, refine};
+use super::{Numbering, Weights, part_of};
 use crate::adjacency::Adjacency;
 use crate::random::Random;
 use std::collections::BTreeSet;
@@ -26,18 +26,8 @@ pub(crate) fn split(
         return by_halves;
     }
     let slices = split_by(neighbours, members, count, |_| 1, random);
-    let cut = |parts: &Vec<Vec<usize>>| edges_cut(neighbours, parts);
+    let cut = |parts: &Vec<Vec<usize>>| Weights::between(parts, neighbours).total();
     by_halves.into_iter().chain(slices).min_by_key(cut)
-}
-
-/// How many edges join different parts.
-pub(crate) fn edges_cut(neighbours: &Adjacency, parts: &[Vec<usize>]) -> usize {
-    let within = |part: &Vec<usize>| {
-        let near = part.iter().flat_map(|panel| &neighbours[*panel]);
-        near.filter(|other| part.binary_search(other).is_ok()).count()
-    };
-    let ends: usize = parts.iter().flatten().map(|panel| neighbours[*panel].len()).sum();
-    (ends - parts.iter().map(within).sum::<usize>()) / 2
 }
 
 fn split_by(
@@ -74,12 +64,7 @@ fn split_by(
 
 /// Moves the border between every two parts that touch, where that cuts fewer edges.
 fn polish(neighbours: &Adjacency, parts: &mut [Vec<usize>], numbering: &mut Numbering, random: &mut Random) {
-    let mut part_of = vec![usize::MAX; neighbours.len()];
-    for (number, part) in parts.iter().enumerate() {
-        for panel in part {
-            part_of[*panel] = number;
-        }
-    }
+    let part_of = part_of(parts, neighbours.len());
     let touching = |a: usize| neighbours[a].iter().map(move |b| (a, *b));
     let pairs: BTreeSet<(usize, usize)> = (0..neighbours.len())
         .flat_map(touching)

@@ -6,12 +6,12 @@
 
 mod anneal;
 mod grid;
-mod weights;
 
 pub(crate) use grid::Grid;
-pub(crate) use weights::Weights;
 
+use crate::partition::Weights;
 use crate::random::Random;
+use crate::sets::Sets;
 
 /// Up to so many cells every placement is tried.
 const EXACT: usize = 8;
@@ -43,7 +43,7 @@ pub(crate) struct Placement {
 pub(crate) fn place(weights: &Weights, grid: Grid, random: &mut Random) -> Placement {
     let site = Site { weights, grid };
     let on = if grid.cells() <= EXACT { exact(&site) } else { anneal::annealed(&site, random) };
-    let mut cells = vec![[0; 2]; weights.count];
+    let mut cells = vec![[0; 2]; weights.parts()];
     for (cell, part) in on.iter().enumerate() {
         if let Some(part) = part {
             cells[*part] =
@@ -61,7 +61,7 @@ struct Site<'a> {
 
 impl Site<'_> {
     fn parts(&self) -> usize {
-        self.weights.count
+        self.weights.parts()
     }
 
     /// The weight between the part on a cell and each part beside it.
@@ -72,19 +72,15 @@ impl Site<'_> {
     }
 
     fn worth(&self, on: &[Option<usize>]) -> Worth {
-        let mut group: Vec<usize> = (0..self.parts()).collect();
         let mut groups = self.parts();
+        let mut sets = Sets::new(groups);
         let mut weight = 0;
         for (cell, part) in on.iter().enumerate() {
             for other in self.grid.beside(cell).filter(|other| *other > cell) {
                 let (Some(a), Some(b)) = (*part, on[other]) else { continue };
                 let shared = self.weights.of(a, b);
                 weight += shared;
-                let (group_a, group_b) = (root(&mut group, a), root(&mut group, b));
-                if shared > 0 && group_a != group_b {
-                    group[group_a] = group_b;
-                    groups -= 1;
-                }
+                groups -= usize::from(shared > 0 && sets.join(a, b));
             }
         }
         Worth { less_groups: -groups.cast_signed(), weight }
@@ -95,9 +91,9 @@ impl Site<'_> {
 /// edge is gained by two parts; nor can there be more edges than the grid has, each one of the heaviest.
 pub(crate) fn bound(weights: &Weights, grid: Grid) -> usize {
     let degrees: Vec<usize> = (0..grid.cells()).map(|cell| grid.beside(cell).count()).collect();
-    let heaviest: Vec<Vec<usize>> = (0..weights.count)
+    let heaviest: Vec<Vec<usize>> = (0..weights.parts())
         .map(|a| {
-            let mut row: Vec<usize> = (0..weights.count).map(|b| weights.of(a, b)).collect();
+            let mut row: Vec<usize> = (0..weights.parts()).map(|b| weights.of(a, b)).collect();
             row.sort_unstable_by(|a, b| b.cmp(a));
             row
         })
@@ -110,18 +106,10 @@ pub(crate) fn bound(weights: &Weights, grid: Grid) -> usize {
         twice += of_rank.iter().take(room).sum::<usize>();
     }
     let mut edges: Vec<usize> =
-        (0..weights.count).flat_map(|a| (0..a).map(move |b| weights.of(a, b))).collect();
+        (0..weights.parts()).flat_map(|a| (0..a).map(move |b| weights.of(a, b))).collect();
     edges.sort_unstable_by(|a, b| b.cmp(a));
     let by_edges: usize = edges.iter().take(degrees.iter().sum::<usize>() / 2).sum();
     by_edges.min(twice / 2)
-}
-
-fn root(group: &mut [usize], mut part: usize) -> usize {
-    while group[part] != part {
-        group[part] = group[group[part]];
-        part = group[part];
-    }
-    part
 }
 
 /// Tries all placements.

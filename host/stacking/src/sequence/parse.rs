@@ -4,6 +4,7 @@
 use super::error::{Place, SequenceError, SequenceProblem};
 use super::{Column, Layer, Mounted, Sequence};
 use crate::plan::Side;
+use crate::sets::Sets;
 use std::collections::BTreeMap;
 
 /// A sequence with the places of its panels in the text.
@@ -141,29 +142,20 @@ impl SequenceText {
 
     fn check_tree(&self) -> Result<(), SequenceError> {
         let (height, panels) = (self.layers[0].len(), self.sequence.panels());
-        let mut group: Vec<usize> = (0..panels).collect();
+        let mut groups = Sets::new(panels);
         let place = |panel: usize| self.layers[panel / height][panel % height];
         for joint in self.sequence.joints() {
-            let [a, b] = joint.panels.map(|panel| representative(&mut group, panel));
-            if a == b {
+            let [a, b] = joint.panels;
+            if !groups.join(a, b) {
                 let place = place(joint.panels[0]);
                 return Err(SequenceError { place, problem: SequenceProblem::Loop });
             }
-            group[a.max(b)] = a.min(b);
         }
-        let apart = (0..panels).find(|panel| representative(&mut group, *panel) != 0);
+        let apart = (0..panels).find(|panel| groups.find(*panel) != groups.find(0));
         apart.map_or(Ok(()), |panel| {
             Err(SequenceError { place: place(panel), problem: SequenceProblem::Apart })
         })
     }
-}
-
-fn representative(group: &mut [usize], mut panel: usize) -> usize {
-    while group[panel] != panel {
-        group[panel] = group[group[panel]];
-        panel = group[panel];
-    }
-    panel
 }
 
 /// What is left of a line, and where it begins.

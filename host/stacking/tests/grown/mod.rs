@@ -1,10 +1,9 @@
 //! Seeded random solids of one piece and without cavities, for the campaign (`examples/campaign.rs`) and its short version
 //! among the tests: lumps, tendrils, thin plates, and dense boxes full of tunnels and of edges where two sheets touch.
 
+use super::boundary::{Voxel, boundary};
 use std::collections::BTreeSet;
 use zygote_stacking::{Model, Request, Surface, SurfaceError, fold, plan};
-
-type Voxel = [i32; 3];
 
 /// How a solid grows.
 #[derive(Debug, Clone, Copy)]
@@ -122,31 +121,4 @@ fn without_cavities(mut solid: BTreeSet<Voxel>) -> BTreeSet<Voxel> {
         }
     }
     solid
-}
-
-/// The sides of a solid, outer side out.
-fn boundary(solid: &BTreeSet<Voxel>) -> Vec<[Voxel; 4]> {
-    let mut quads = Vec::new();
-    for voxel in solid {
-        for (axis, high) in [(0, false), (0, true), (1, false), (1, true), (2, false), (2, true)] {
-            let mut beyond = *voxel;
-            beyond[axis] += if high { 1 } else { -1 };
-            if solid.contains(&beyond) {
-                continue;
-            }
-            let corner = |du: i32, dv: i32| {
-                let mut point = *voxel;
-                point[axis] += i32::from(high);
-                point[(axis + 1) % 3] += du;
-                point[(axis + 2) % 3] += dv;
-                point
-            };
-            let mut quad = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
-            if !high {
-                quad.reverse();
-            }
-            quads.push(quad);
-        }
-    }
-    quads
 }

@@ -1,12 +1,23 @@
 //! Piles from arcs of one strip: the search over strips, the places to cut them and the layouts of their piles.
+//!
+//! ```text
+//! cuts:        all ways of cutting a strip, and the bridges each allows
+//! layout:      piles on cells, joined by a tree of bridges
+//! bridge_tree: how deep that tree is
+//! stack:       the arcs of the best way, stacked
+//! ```
 
+mod bridge_tree;
+mod cuts;
+mod layout;
+mod stack;
+
+use self::cuts::Cuts;
+use self::layout::Layout;
+use self::stack::Stack;
 use crate::adjacency::Adjacency;
-use crate::arcs::Stack;
-use crate::bridge_tree;
-use crate::cuts::Cuts;
 use crate::dual::Dual;
 use crate::hamiltonian::{self, Strip};
-use crate::layout::{self, Layout};
 use crate::matching::{self, Bridged, Matched};
 use crate::planner::{Bridges, PlanError, Request};
 use crate::random::Random;

@@ -2,7 +2,7 @@
 //! compares thousands of layouts by it.
 
 /// The depth from the middle of the tree, in hinges, of unbroken piles joined by bridges: piles and height of each.
-pub(crate) fn depth(piles: usize, height: usize, bridges: &[([usize; 2], usize)]) -> usize {
+pub(super) fn depth(piles: usize, height: usize, bridges: &[([usize; 2], usize)]) -> usize {
     // The stops: both ends of every pile, and the ends of the bridges.
     let mut stops: Vec<(usize, usize)> =
         (0..piles).flat_map(|pile| [(pile, 0), (pile, height - 1)]).collect();

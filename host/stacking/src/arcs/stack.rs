@@ -3,30 +3,19 @@
 
 use crate::dual::Dual;
 use crate::folding_map::Facing;
-use crate::plan::Side;
 
 /// Piles before they have a cell: every pile in a frame of its own.
 #[derive(Debug, Clone)]
-pub(crate) struct Stack {
+pub(super) struct Stack {
     /// Panels of every pile from the bottom up.
-    pub(crate) piles: Vec<Vec<usize>>,
+    pub(super) piles: Vec<Vec<usize>>,
     /// Of every panel how it lies in its pile's frame.
-    pub(crate) facing: Vec<Facing>,
-}
-
-/// A bridge that is possible: two neighbours at one height of two piles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Joint {
-    pub(crate) panels: [usize; 2],
-    pub(crate) edges: [usize; 2],
-    pub(crate) piles: [usize; 2],
-    /// The sides that the common edge is on, each in its own pile's frame.
-    pub(crate) sides: [Side; 2],
+    pub(super) facing: Vec<Facing>,
 }
 
 impl Stack {
     /// Cuts a strip of panels, from place `offset` on, into `count` equal arcs and stacks them.
-    pub(crate) fn cut(order: &[usize], offset: usize, count: usize, dual: &Dual) -> Self {
+    pub(super) fn cut(order: &[usize], offset: usize, count: usize, dual: &Dual) -> Self {
         let height = order.len() / count;
         let mut facing = vec![Facing::BOTTOM; order.len()];
         let piles = (0..count).map(|number| {

@@ -1,23 +1,23 @@
 //! Puts piles on the cells of a grid and chooses the bridges that join them: a tree of piles, each turned so that its
 //! bridge faces the neighbour's cell.
 
-use crate::arcs::Joint;
+use crate::joint::Joint;
 use crate::random::Random;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Where the piles stand.
 #[derive(Debug, Clone)]
-pub(crate) struct Layout {
+pub(super) struct Layout {
     /// Of every pile its cell.
-    pub(crate) cells: Vec<[i32; 2]>,
+    pub(super) cells: Vec<[i32; 2]>,
     /// Of every pile its quarter turns counter-clockwise.
-    pub(crate) turns: Vec<usize>,
+    pub(super) turns: Vec<usize>,
     /// The bridges, one less than piles.
-    pub(crate) bridges: Vec<Joint>,
+    pub(super) bridges: Vec<Joint>,
 }
 
 /// The box of a set of cells: area first, then half its circumference.
-pub(crate) fn compactness<'a>(cells: &(impl Iterator<Item = &'a [i32; 2]> + Clone)) -> (i32, i32) {
+pub(super) fn compactness<'a>(cells: &(impl Iterator<Item = &'a [i32; 2]> + Clone)) -> (i32, i32) {
     let [across, along] = [0, 1].map(|axis| {
         let values = || cells.clone().map(|cell| cell[axis]);
         values().max().unwrap_or(0) - values().min().unwrap_or(0) + 1
@@ -35,7 +35,7 @@ struct Way {
 
 /// Adds pile after pile, the one with the fewest ways first, on a grid of so many cells where one is given; or says how many
 /// it placed.
-pub(crate) fn grow(
+pub(super) fn grow(
     piles: usize,
     joints: &[Joint],
     grid: Option<[usize; 2]>,

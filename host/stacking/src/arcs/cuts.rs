@@ -5,13 +5,13 @@
 //! stand equally high when i = j (mod h), should both arcs run the same way, or i + j + 1 = 2 o (mod h) where they run
 //! against each other. So every pair of neighbours belongs to one remainder of h, and a way of cutting to one as well.
 
-use crate::arcs::Joint;
 use crate::dual::Dual;
 use crate::folding_map::Facing;
+use crate::joint::Joint;
 use crate::plan::Side;
 
 /// A strip and the bridges that cutting it can give.
-pub(crate) struct Cuts<'a> {
+pub(super) struct Cuts<'a> {
     order: &'a [usize],
     dual: &'a Dual,
     height: usize,
@@ -29,7 +29,7 @@ pub(crate) struct Cuts<'a> {
 
 impl<'a> Cuts<'a> {
     /// Looks at a strip that is to be cut into `count` arcs.
-    pub(crate) fn of(order: &'a [usize], count: usize, dual: &'a Dual) -> Self {
+    pub(super) fn of(order: &'a [usize], count: usize, dual: &'a Dual) -> Self {
         let height = order.len() / count;
         let mut place = vec![0; order.len()];
         for (number, panel) in order.iter().enumerate() {
@@ -93,7 +93,7 @@ impl<'a> Cuts<'a> {
     }
 
     /// The pile of a panel and its height there, when the first arc begins at `offset`.
-    pub(crate) fn pile_and_height(&self, panel: usize, offset: usize) -> (usize, usize) {
+    pub(super) fn pile_and_height(&self, panel: usize, offset: usize) -> (usize, usize) {
         let along = (self.place[panel] + self.order.len() - offset) % self.order.len();
         let (pile, rest) = (along / self.height, along % self.height);
         (pile, if pile % 2 == 0 { rest } else { self.height - 1 - rest })
@@ -110,7 +110,7 @@ impl<'a> Cuts<'a> {
     }
 
     /// All bridges that are possible when the first arc begins at `offset`.
-    pub(crate) fn joints(&self, offset: usize) -> Vec<Joint> {
+    pub(super) fn joints(&self, offset: usize) -> Vec<Joint> {
         let remainder = 2 * offset % self.height;
         let against = &self.pairs[self.begin[remainder]..self.begin[remainder + 1]];
         let candidates =
@@ -132,7 +132,7 @@ impl<'a> Cuts<'a> {
     }
 
     /// The quarter turns from a stacked pile's frame, with edge 0 of its bottom panel on E, to the frame of the joints.
-    pub(crate) fn turn_of(&self, bottom: usize, offset: usize) -> usize {
+    pub(super) fn turn_of(&self, bottom: usize, offset: usize) -> usize {
         self.side(bottom, 0, 0, offset) as usize
     }
 }
