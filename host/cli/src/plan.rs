@@ -75,6 +75,8 @@ enum BridgesArgument {
     Least,
     /// As many as can be; each one too many breaks a fold
     Most,
+    /// One less than piles, in one plane of the target: nothing that moves is wider than a cell
+    Base,
 }
 
 fn grid(text: &str) -> Result<[usize; 2], String> {
@@ -112,6 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         bridges: match arguments.bridges {
             BridgesArgument::Least => Bridges::Least,
             BridgesArgument::Most => Bridges::Most,
+            BridgesArgument::Base => Bridges::Base,
         },
         grid: arguments.grid,
     };
@@ -149,6 +152,7 @@ pub(crate) fn refused(model: &Path) -> impl FnOnce(PlanError) -> Failure {
             PlanError::NoStrip(_)
             | PlanError::NoLayout { .. }
             | PlanError::NoMatch(_)
+            | PlanError::NoBase(_)
             | PlanError::NeitherWay { .. } => Failure::Failed(told),
         }
     }

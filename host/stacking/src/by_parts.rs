@@ -6,7 +6,7 @@ use crate::at_once::at_once;
 use crate::dual::Dual;
 use crate::hamiltonian::Strip;
 use crate::matching::{self, Bridged, Opener};
-use crate::partition::{self, Borders, Keeping, Numbering, Ringed, Weights};
+use crate::partition::{self, Borders, Held, Keeping, Numbering, Ringed, Weights};
 use crate::placement::{self, Grid};
 use crate::planner::{Bridges, Request};
 use crate::random::Random;
@@ -80,7 +80,9 @@ pub(crate) fn find(
     for _ in 0..partitions {
         tried.partitions += 1;
         let Some(ringed) = ringed(neighbours, &all, piles, &mut random) else { continue };
-        let Some((parts, rings)) = partition::rings(neighbours, ringed, &mut random) else { continue };
+        let Some((parts, rings)) = partition::rings(neighbours, ringed, &Held::none(), &mut random) else {
+            continue;
+        };
         tried.ringed += 1;
         let weights = Weights::between(&parts, neighbours);
         for grid in grids.iter().take(shapes) {
@@ -122,7 +124,7 @@ struct Placed<'a> {
 }
 
 impl Placed<'_> {
-    /// Joins the parts several times, each time with other rings, two at once, and takes the best.
+    /// Joins the parts several times, each time with other rings, two at once, and takes the one with most bridges.
     fn best(
         &self,
         rings: &[Strip],
@@ -144,7 +146,10 @@ impl Placed<'_> {
             }
         }
         tried.rings += all.iter().map(|(_, rings)| rings).sum::<usize>();
-        all.into_iter().filter_map(|(bridged, _)| bridged).max_by_key(|bridged| bridged.bridges.len())
+        let found: Vec<Bridged> = all.into_iter().filter_map(|(bridged, _)| bridged).collect();
+        let most = found.iter().map(|bridged| bridged.bridges.len()).max()?;
+        // Errors add up along the tree path, so of as many bridges the shallower tree.
+        found.into_iter().filter(|bridged| bridged.bridges.len() == most).min_by_key(Bridged::depth)
     }
 
     /// Opens the rings so that they match, and builds the bridges. While the piles hang together in groups only, piles

@@ -4,6 +4,7 @@
 //! model file -> readers -> Surface (unit squares, dual graph)
 //!     -> partition, a cycle in every part -> placement -> matching    \
 //!     -> one cycle -> arcs (cuts, layout)                             -> Plan -> plan.fold
+//!     -> base: a flat patch, a part with a cycle around each panel    /
 //! ```
 //!
 //! Pure: no clock, no randomness without a seed. Words and signs are those of `docs/src/geometry.md`.
@@ -12,6 +13,7 @@ mod adjacency;
 mod alternatives;
 mod arcs;
 mod at_once;
+mod base;
 mod bridge_bound;
 mod by_parts;
 mod check;
@@ -44,6 +46,7 @@ mod tree_path;
 mod voxels;
 
 pub use alternatives::{Alternative, Alternatives, alternatives};
+pub use base::NoBase;
 pub use by_parts::NoMatch;
 pub use check::{Figures, Report, Rule, Violation, check};
 pub use cut_edges::CutEdge;

@@ -3,6 +3,7 @@
 
 use crate::arcs;
 use crate::at_once::at_once;
+use crate::base::{self, NoBase};
 use crate::by_parts::{self, Effort, NoMatch};
 use crate::hamiltonian::NoStrip;
 use crate::hinges;
@@ -40,6 +41,8 @@ pub enum Bridges {
     /// As many as can be; for each one too many a fold is broken.
     #[default]
     Most,
+    /// One less than piles, all in one plane of the target: they never move, and nothing that does is wider than a cell.
+    Base,
 }
 
 /// What is asked for.
@@ -143,6 +146,9 @@ pub enum PlanError {
     /// No parts whose piles match.
     #[error(transparent)]
     NoMatch(#[from] NoMatch),
+    /// No flat base.
+    #[error(transparent)]
+    NoBase(#[from] NoBase),
     /// Neither of both ways.
     #[error("{parts}; {arcs}")]
     NeitherWay {
@@ -157,7 +163,11 @@ impl PlanError {
     /// Whether the search came to an end without success, so that another seed may do.
     pub(crate) fn is_luck(&self) -> bool {
         match self {
-            Self::NoStrip(_) | Self::NoLayout { .. } | Self::NoMatch(_) | Self::NeitherWay { .. } => true,
+            Self::NoStrip(_)
+            | Self::NoLayout { .. }
+            | Self::NoMatch(_)
+            | Self::NoBase(_)
+            | Self::NeitherWay { .. } => true,
             Self::Indivisible { .. } | Self::Root { .. } | Self::Length { .. } | Self::Grid { .. } => false,
         }
     }
@@ -173,6 +183,9 @@ pub fn plan(model: &Model, request: &Request) -> Result<Plan, PlanError> {
     let by_arcs = || arcs::find(&model.dual, &neighbours, request);
     let by_parts = |effort| by_parts::find(&model.dual, &neighbours, request, effort);
     let plan = |found| into_plan(found, model, request);
+    if request.bridges == Bridges::Base && request.piles > 1 {
+        return Ok(plan(base::find(&model.dual, &neighbours, model.surface.quads(), request)?));
+    }
     match request.partition {
         Partition::Arcs => Ok(plan(by_arcs()?)),
         Partition::MinCut => Ok(plan(by_parts(Effort::Thorough)?)),

@@ -138,7 +138,7 @@ impl Found {
         }
         let matched = Matched { piles, facing, turns, cells };
         match request.bridges {
-            Bridges::Least => Some(matched.with(bridges)),
+            Bridges::Least | Bridges::Base => Some(matched.with(bridges)),
             Bridges::Most => matching::bridge(dual, matched, Bridges::Most),
         }
     }

@@ -11,7 +11,7 @@ use crate::plan::Side;
 use crate::planner::Bridges;
 use crate::sets::Sets;
 use crate::tree_path;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// Times that the tree path is grown anew from its middle.
 const REGROWTHS: usize = 3;
@@ -29,6 +29,23 @@ pub(crate) struct Bridged {
     pub(crate) bridges: Vec<Joint>,
     /// The panels of every broken fold, the lower one first.
     pub(crate) breaks: Vec<[usize; 2]>,
+}
+
+impl Bridged {
+    /// How many hinges lie between the middle of the tree path and the panel farthest from it.
+    pub(crate) fn depth(&self) -> usize {
+        let broken: BTreeSet<[usize; 2]> = self.breaks.iter().copied().collect();
+        let mut joined = Adjacency::without_edges(self.facing.len());
+        for pair in self.piles.iter().flat_map(|pile| pile.windows(2)) {
+            if !broken.contains(&[pair[0], pair[1]]) {
+                joined.join(pair[0], pair[1]);
+            }
+        }
+        for bridge in &self.bridges {
+            joined.join(bridge.panels[0], bridge.panels[1]);
+        }
+        tree_path::centre(&joined).1
+    }
 }
 
 impl Matched {
@@ -70,7 +87,7 @@ fn bridge_as_they_stand(dual: &Dual, matched: Matched, wanted: Bridges) -> Optio
     let candidates = candidates(dual, &matched);
     let height = matched.piles.first().map_or(0, Vec::len);
     let turned = match wanted {
-        Bridges::Least => matched.turns.iter().map(|turn| vec![*turn; height]).collect(),
+        Bridges::Least | Bridges::Base => matched.turns.iter().map(|turn| vec![*turn; height]).collect(),
         Bridges::Most => turning::choose(&candidates, &matched.turns, height),
     };
     let fits = |candidate: &&Candidate| {
@@ -85,7 +102,7 @@ fn bridge_as_they_stand(dual: &Dual, matched: Matched, wanted: Bridges) -> Optio
         }
     }
     let (bridges, breaks) = match wanted {
-        Bridges::Least => (spanning(fitting, matched.piles.len(), height)?, Vec::new()),
+        Bridges::Least | Bridges::Base => (spanning(fitting, matched.piles.len(), height)?, Vec::new()),
         Bridges::Most => grown(&matched.piles, &turned, &fitting)?,
     };
     Some(Bridged { piles: matched.piles, facing, cells: matched.cells, bridges, breaks })

@@ -233,7 +233,7 @@ impl<'a> Opener<'a> {
             let all = level_with(votes[0].opening);
             let score = match self.wanted {
                 // Bridges half way up keep the tree path shallow.
-                Bridges::Least => (joined.len(), central, votes.len(), random.next()),
+                Bridges::Least | Bridges::Base => (joined.len(), central, votes.len(), random.next()),
                 // Neighbours that are equally high without facing each other can be made to by a break.
                 Bridges::Most => (joined.len(), 2 * votes.len() + all, central, random.next()),
             };

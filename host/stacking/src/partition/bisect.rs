@@ -20,16 +20,27 @@ const MOST_CUTS: usize = 8;
 
 /// Splits a connected graph into a connected half of `first` nodes (false) and a connected rest (true); none where no cut
 /// left both in one piece.
-pub(super) fn bisect(graph: &Adjacency, first: usize, random: &mut Random) -> Option<Vec<bool>> {
+///
+/// `held` has for every node the half that it must be in, or nothing at all.
+pub(super) fn bisect(
+    graph: &Adjacency,
+    first: usize,
+    held: &[Option<bool>],
+    random: &mut Random,
+) -> Option<Vec<bool>> {
     let tries = (EFFORT / graph.len().max(1)).clamp(FEWEST_CUTS, MOST_CUTS);
     let mut best: Option<(usize, Vec<bool>)> = None;
     for number in 0..tries {
-        let order = if number % 2 == 0 { between(graph, random) } else { growth(graph, random) };
+        let order = match (held.is_empty(), number % 2) {
+            (false, _) => from_held(graph, held),
+            (true, 0) => between(graph, random),
+            (true, _) => growth(graph, random),
+        };
         let mut beyond = vec![true; graph.len()];
         for node in &order[..first] {
             beyond[*node] = false;
         }
-        if let Some(size) = refine(graph, first, &mut beyond, random)
+        if let Some(size) = refine(graph, first, &mut beyond, held, random)
             && best.as_ref().is_none_or(|(least, _)| size < *least)
         {
             best = Some((size, beyond));
@@ -44,9 +55,16 @@ pub(super) fn refine(
     graph: &Adjacency,
     first: usize,
     beyond: &mut [bool],
+    held: &[Option<bool>],
     random: &mut Random,
 ) -> Option<usize> {
     let mut cut = Cut::of(graph, first, beyond);
+    for (node, half) in held.iter().enumerate() {
+        if half.is_some() {
+            // A node that has moved stays where it is.
+            cut.moved[node] = true;
+        }
+    }
     for _ in 0..ROUNDS {
         let mut size = usize::MAX;
         for _ in 0..PASSES {
@@ -61,34 +79,50 @@ pub(super) fn refine(
         }
         let strays = [false, true].map(|half| cut.gather_strays(half));
         if strays == [0, 0] {
-            return Some(cut.size);
+            let strayed = |(held, beyond): (&Option<bool>, &bool)| held.is_some_and(|held| held != *beyond);
+            return (!held.iter().zip(&*cut.beyond).any(strayed)).then_some(cut.size);
         }
     }
     None
 }
 
 fn growth(graph: &Adjacency, random: &mut Random) -> Vec<usize> {
-    let mut order = reached(graph, random.below(graph.len())).0;
+    let mut order = reached(graph, [random.below(graph.len())]).0;
     let far = order[order.len() - 1];
-    order = reached(graph, far).0;
+    order = reached(graph, [far]).0;
     order
 }
 
 /// The nodes in the order of their distance to one of two far nodes less that to the other.
 fn between(graph: &Adjacency, random: &mut Random) -> Vec<usize> {
-    let start = reached(graph, random.below(graph.len())).0;
-    let (order, from_one) = reached(graph, start[start.len() - 1]);
-    let (mut order, from_other) = reached(graph, order[order.len() - 1]);
+    let start = reached(graph, [random.below(graph.len())]).0;
+    let (order, from_one) = reached(graph, [start[start.len() - 1]]);
+    let (mut order, from_other) = reached(graph, [order[order.len() - 1]]);
     order.sort_by_key(|node| from_one[*node].cast_signed() - from_other[*node].cast_signed());
     order
 }
 
-/// The nodes in breadth-first order from one, and the distance of each.
-fn reached(graph: &Adjacency, start: usize) -> (Vec<usize>, Vec<usize>) {
+/// The nodes in the order of their distance to what is held in the first half less that to what is held beyond; the held
+/// ones themselves first and last.
+fn from_held(graph: &Adjacency, held: &[Option<bool>]) -> Vec<usize> {
+    let of_half = |half: bool| (0..graph.len()).filter(move |node| held[*node] == Some(half));
+    let [near, far] = [false, true].map(|half| reached(graph, of_half(half)).1);
+    let mut order: Vec<usize> = (0..graph.len()).collect();
+    order.sort_by_key(|node| {
+        let side = held[*node].map_or(0, |beyond| if beyond { 1 } else { -1 });
+        (side, near[*node].cast_signed() - far[*node].cast_signed())
+    });
+    order
+}
+
+/// The nodes in breadth-first order from one or more, and the distance of each.
+fn reached(graph: &Adjacency, starts: impl IntoIterator<Item = usize>) -> (Vec<usize>, Vec<usize>) {
     let mut distance = vec![usize::MAX; graph.len()];
-    distance[start] = 0;
     let mut order = Vec::with_capacity(graph.len());
-    order.push(start);
+    order.extend(starts);
+    for start in &order {
+        distance[*start] = 0;
+    }
     let mut next = 0;
     while next < order.len() {
         let node = order[next];
@@ -288,17 +322,32 @@ mod tests {
     #[test]
     fn the_best_cut_through_the_middle_of_a_sheet_is_found() {
         let graph = sheet(20, 8);
-        let beyond = bisect(&graph, 80, &mut Random::new(1, 1)).unwrap();
+        let beyond = bisect(&graph, 80, &[], &mut Random::new(1, 1)).unwrap();
         assert_eq!(beyond.iter().filter(|beyond| !**beyond).count(), 80);
         let cut = |node: usize| graph[node].iter().filter(|other| beyond[**other] != beyond[node]).count();
         assert_eq!((0..160).map(cut).sum::<usize>() / 2, 8);
     }
 
     #[test]
+    fn held_nodes_stay_in_their_halves() {
+        let graph = sheet(12, 9);
+        let mut held = vec![None; 108];
+        // Two neighbours near a corner, where no short cut passes.
+        held[15] = Some(false);
+        held[27] = Some(true);
+        let beyond = bisect(&graph, 54, &held, &mut Random::new(1, 1)).unwrap();
+        assert_eq!((beyond[15], beyond[27]), (false, true));
+        assert_eq!(beyond.iter().filter(|beyond| !**beyond).count(), 54);
+        for half in [false, true] {
+            assert_eq!(pieces(&graph, |node| beyond[node] == half).len(), 1);
+        }
+    }
+
+    #[test]
     fn halves_of_any_sizes_are_exact_and_in_one_piece() {
         let graph = sheet(11, 9);
         for first in 1..99 {
-            let beyond = bisect(&graph, first, &mut Random::new(first as u64, 1)).unwrap();
+            let beyond = bisect(&graph, first, &[], &mut Random::new(first as u64, 1)).unwrap();
             assert_eq!(beyond.iter().filter(|beyond| !**beyond).count(), first);
             for half in [false, true] {
                 assert_eq!(pieces(&graph, |node| beyond[node] == half).len(), 1, "{first}");

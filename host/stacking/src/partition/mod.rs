@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! bisect: two halves of exact size, Fiduccia-Mattheyses -> split: K parts, by halves, then pair by pair
+//! held:   panels that stay in their parts
 //! sound:  cheap proofs that a part has no cycle
 //! settle: panels change places across a border until no such proof holds
 //! rings:  a cycle in every part; a part without one is cut anew together with a neighbour
@@ -10,6 +11,7 @@
 //! ```
 
 mod bisect;
+mod held;
 mod lanes;
 mod rings;
 mod settle;
@@ -18,9 +20,10 @@ mod sound;
 mod split;
 mod weights;
 
+pub(crate) use held::Held;
 pub(crate) use lanes::Borders;
 pub(crate) use rings::{Keeping, Ringed, again, rings};
-pub(crate) use split::split;
+pub(crate) use split::{split, split_held};
 pub(crate) use weights::Weights;
 
 use crate::adjacency::Adjacency;

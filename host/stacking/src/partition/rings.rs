@@ -4,7 +4,7 @@
 use super::settle::settle;
 use super::shortened::Shortened;
 use super::sound::Part;
-use super::{Numbering, part_of, split};
+use super::{Held, Numbering, part_of, split};
 use crate::adjacency::Adjacency;
 use crate::hamiltonian::{self, Strip};
 use crate::random::Random;
@@ -46,10 +46,11 @@ impl Ringed {
 }
 
 /// Recuts the parts that have no ring; none where that did not end well. Parts of an odd number of panels on a flat sheet have
-/// no cycle whatever the cut, so there a path will do.
+/// no cycle whatever the cut, so there a path will do. Parts that hold panels are mended only.
 pub(crate) fn rings(
     neighbours: &Adjacency,
     ringed: Ringed,
+    held: &Held,
     random: &mut Random,
 ) -> Option<(Vec<Vec<usize>>, Vec<Strip>)> {
     let mut numbering = Numbering::new(neighbours.len());
@@ -67,7 +68,7 @@ pub(crate) fn rings(
         let members: Vec<usize> = group.iter().flat_map(|number| parts[*number].iter().copied()).collect();
         let before: usize = group.iter().map(|number| lack(found[*number].as_ref())).sum();
         // First panels change places across the border as it is, then the border is drawn anew.
-        let mut cut: Vec<Vec<usize>> = if recuts[part] <= MENDINGS {
+        let mut cut: Vec<Vec<usize>> = if recuts[part] <= MENDINGS || held.any() {
             group.iter().map(|number| parts[*number].clone()).collect()
         } else {
             let cuts = (0..CUTS).filter_map(|_| split(neighbours, &members, group.len(), random));
@@ -78,7 +79,7 @@ pub(crate) fn rings(
             best
         };
         // Cuts are much alike, so they are strayed from even where they have no defects.
-        settle(neighbours, &mut cut, recuts[part] > 1, &mut numbering, random);
+        settle(neighbours, &mut cut, recuts[part] > 1, held, &mut numbering, random);
         let made: Vec<Option<Strip>> =
             cut.iter().map(|part| ring(neighbours, part, &mut numbering, random)).collect();
         // Another cut that is as bad is taken too: it is another chance.

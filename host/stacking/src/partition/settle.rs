@@ -1,8 +1,8 @@
 //! Parts exchange panels across their borders until cheap tests find nothing that keeps them from having a cycle each. The
 //! colours of a chess board are the usual matter: a cut as short as can be seldom leaves as many dark panels as light ones.
 
-use super::Numbering;
 use super::sound::Part;
+use super::{Held, Numbering};
 use crate::adjacency::Adjacency;
 use crate::random::Random;
 
@@ -16,11 +16,13 @@ pub(super) fn settle(
     neighbours: &Adjacency,
     parts: &mut [Vec<usize>],
     stray: bool,
+    held: &Held,
     numbering: &mut Numbering,
     random: &mut Random,
 ) {
     let members: Vec<usize> = parts.iter().flatten().copied().collect();
     let graph = numbering.within(neighbours, &members);
+    let free: Vec<bool> = members.iter().map(|panel| held.part_of(*panel).is_none()).collect();
     let mut part_of: Vec<usize> =
         parts.iter().enumerate().flat_map(|(name, part)| vec![name; part.len()]).collect();
     let defects = |part_of: &[usize], name: usize| Part { graph: &graph, name_of: part_of, name }.defects();
@@ -34,7 +36,7 @@ pub(super) fn settle(
         let part =
             if faulty.is_empty() { random.below(parts.len()) } else { faulty[random.below(faulty.len())] };
         let near = spots(Part { graph: &graph, name_of: &part_of, name: part });
-        let Some([leaves, comes]) = exchange(&graph, &part_of, part, &near, random) else { continue };
+        let Some([leaves, comes]) = exchange(&graph, &part_of, &free, part, &near, random) else { continue };
         let (a, b) = (part_of[leaves], part_of[comes]);
         part_of.swap(leaves, comes);
         let new = [a, b].map(|name| defects(&part_of, name));
@@ -64,11 +66,12 @@ fn spots(part: Part<'_>) -> Vec<usize> {
     spots
 }
 
-/// Two panels to change places, each at the border with the other's part; the first or the other near one of the spots, if
+/// Two free panels to change places, each at the border with the other's part; the first or the other near one of the spots, if
 /// there are any at the border.
 fn exchange(
     graph: &Adjacency,
     part_of: &[usize],
+    free: &[bool],
     part: usize,
     spots: &[usize],
     random: &mut Random,
@@ -76,7 +79,7 @@ fn exchange(
     let border: Vec<(usize, usize)> = (0..graph.len())
         .filter(|node| part_of[*node] == part)
         .flat_map(|node| graph[node].iter().map(move |other| (node, *other)))
-        .filter(|(_, other)| part_of[*other] != part)
+        .filter(|(node, other)| part_of[*other] != part && free[*node] && free[*other])
         .collect();
     let is_near = |node: &usize| spots.binary_search(node).is_ok();
     let near: Vec<(usize, usize)> =

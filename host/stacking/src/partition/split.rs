@@ -1,10 +1,11 @@
 //! K parts of exactly equal size: by halves, then pair by pair once more.
 
 use super::bisect::{bisect, refine};
-use super::{Numbering, Weights, part_of};
+use super::{Held, Numbering, Weights, part_of};
 use crate::adjacency::Adjacency;
 use crate::random::Random;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Up to so many parts slices are tried.
 const MOST_SLICES: usize = 8;
@@ -21,13 +22,24 @@ pub(crate) fn split(
     count: usize,
     random: &mut Random,
 ) -> Option<Vec<Vec<usize>>> {
-    let by_halves = split_by(neighbours, members, count, |count| count / 2, random);
+    let by_halves = split_by(neighbours, members, count, |count| count / 2, &Held::none(), random);
     if !(3..=MOST_SLICES).contains(&count) || members.len() > MOST_SLICED {
         return by_halves;
     }
-    let slices = split_by(neighbours, members, count, |_| 1, random);
+    let slices = split_by(neighbours, members, count, |_| 1, &Held::none(), random);
     let cut = |parts: &Vec<Vec<usize>>| Weights::between(parts, neighbours).total();
     by_halves.into_iter().chain(slices).min_by_key(cut)
+}
+
+/// Splits all panels into `count` parts of equal size by halves, each with the panels that it holds.
+pub(crate) fn split_held(
+    neighbours: &Adjacency,
+    count: usize,
+    held: &Held,
+    random: &mut Random,
+) -> Option<Vec<Vec<usize>>> {
+    let all: Vec<usize> = (0..neighbours.len()).collect();
+    split_by(neighbours, &all, count, |count| count / 2, held, random)
 }
 
 fn split_by(
@@ -35,26 +47,29 @@ fn split_by(
     members: &[usize],
     count: usize,
     first_of: impl Fn(usize) -> usize,
+    held: &Held,
     random: &mut Random,
 ) -> Option<Vec<Vec<usize>>> {
     let mut numbering = Numbering::new(neighbours.len());
     let mut parts = Vec::with_capacity(count);
-    let mut waiting = vec![(members.to_vec(), count)];
-    while let Some((members, count)) = waiting.pop() {
-        if count == 1 {
+    // The first of the parts that members make, and the one after the last; parts come out in their order.
+    let mut waiting: Vec<(Vec<usize>, Range<usize>)> = vec![(members.to_vec(), 0..count)];
+    while let Some((members, Range { start, end })) = waiting.pop() {
+        if end - start == 1 {
             parts.push(members);
             continue;
         }
         let graph = numbering.within(neighbours, &members);
-        let half = first_of(count);
-        let beyond = bisect(&graph, members.len() / count * half, random)?;
+        let half = first_of(end - start);
+        let held = held.halves(&members, |part| part >= start + half);
+        let beyond = bisect(&graph, members.len() / (end - start) * half, &held, random)?;
         let of_half = |half: bool| members.iter().zip(&beyond).filter(move |(_, beyond)| **beyond == half);
         let [first, second] = [false, true].map(|half| of_half(half).map(|(panel, _)| *panel).collect());
-        waiting.push((second, count - half));
-        waiting.push((first, half));
+        waiting.push((second, start + half..end));
+        waiting.push((first, start..start + half));
     }
     if count > 2 {
-        polish(neighbours, &mut parts, &mut numbering, random);
+        polish(neighbours, &mut parts, held, &mut numbering, random);
     }
     for part in &mut parts {
         part.sort_unstable();
@@ -63,7 +78,13 @@ fn split_by(
 }
 
 /// Moves the border between every two parts that touch, where that cuts fewer edges.
-fn polish(neighbours: &Adjacency, parts: &mut [Vec<usize>], numbering: &mut Numbering, random: &mut Random) {
+fn polish(
+    neighbours: &Adjacency,
+    parts: &mut [Vec<usize>],
+    held: &Held,
+    numbering: &mut Numbering,
+    random: &mut Random,
+) {
     let part_of = part_of(parts, neighbours.len());
     let touching = |a: usize| neighbours[a].iter().map(move |b| (a, *b));
     let pairs: BTreeSet<(usize, usize)> = (0..neighbours.len())
@@ -77,7 +98,7 @@ fn polish(neighbours: &Adjacency, parts: &mut [Vec<usize>], numbering: &mut Numb
         let before = std::mem::replace(&mut changed, vec![false; parts.len()]);
         for &(a, b) in &pairs {
             if (before[a] || before[b] || changed[a] || changed[b])
-                && polish_pair(neighbours, parts, [a, b], numbering, random)
+                && polish_pair(neighbours, parts, [a, b], held, numbering, random)
             {
                 changed[a] = true;
                 changed[b] = true;
@@ -94,6 +115,7 @@ fn polish_pair(
     neighbours: &Adjacency,
     parts: &mut [Vec<usize>],
     [a, b]: [usize; 2],
+    held: &Held,
     numbering: &mut Numbering,
     random: &mut Random,
 ) -> bool {
@@ -106,7 +128,8 @@ fn polish_pair(
         (0..graph.len()).map(|node| crossing(node).count()).sum::<usize>() / 2
     };
     let before = cut(&beyond);
-    let bettered = refine(&graph, first, &mut beyond, random).is_some_and(|after| after < before);
+    let held = held.halves(&members, |part| part == b);
+    let bettered = refine(&graph, first, &mut beyond, &held, random).is_some_and(|after| after < before);
     if bettered {
         for (number, half) in [(a, false), (b, true)] {
             let of_half = members.iter().zip(&beyond).filter(|(_, beyond)| **beyond == half);
