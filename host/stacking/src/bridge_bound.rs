@@ -99,9 +99,8 @@ mod tests {
         let mut below_both = 0;
         for _ in 0..2000 {
             let (panels, others) = (1 + random.below(7), 1 + random.below(7));
-            let near: Vec<Vec<usize>> = (0..panels)
-                .map(|_| (0..1 + random.below(3)).map(|_| random.below(others)).collect())
-                .collect();
+            let near: Vec<Vec<usize>> =
+                (0..panels).map(|_| (0..=random.below(3)).map(|_| random.below(others)).collect()).collect();
             let most = tried(&near, &mut Vec::new());
             assert_eq!(greatest(&near, others), most, "{near:?}");
             below_both += usize::from(most < panels.min(others));
