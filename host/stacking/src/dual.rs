@@ -164,3 +164,13 @@ fn crossing(surface: &Surface, meeting: &[Flank]) -> SurfaceError {
     let faces: Vec<String> = meeting.iter().map(|flank| surface.name(flank.panel)).collect();
     SurfaceError::Crossing { edge: edge_name(surface, &meeting[0]), faces: faces.join(", ") }
 }
+
+#[cfg(test)]
+impl Dual {
+    /// A flat sheet for tests: panel `y * width + x` is the square at (x, y).
+    pub(crate) fn of_sheet(width: i32, depth: i32) -> Self {
+        let squares = (0..depth).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let quads = squares.map(|(x, y)| [[x, y, 0], [x + 1, y, 0], [x + 1, y + 1, 0], [x, y + 1, 0]]);
+        Self::of(&Surface::new(quads.collect(), Vec::new()).unwrap()).unwrap()
+    }
+}

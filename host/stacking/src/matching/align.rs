@@ -192,3 +192,30 @@ impl Move {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_move_puts_its_pair_between_two_others_and_leaves_the_rest_in_order() {
+        let pile: Vec<usize> = (10..20).collect();
+        for (from, to, reversed) in (1..8)
+            .flat_map(|from| (0..9).map(move |to| (from, to)))
+            .flat_map(|(from, to)| [(from, to, false), (from, to, true)])
+            .filter(|(from, to, _)| !(from - 1..=from + 1).contains(to))
+        {
+            let mut moved = pile.clone();
+            Move { from, to, reversed }.apply(&mut moved);
+            let mut pair = [pile[from], pile[from + 1]];
+            if reversed {
+                pair.reverse();
+            }
+            let mut expected: Vec<usize> =
+                pile.iter().copied().filter(|panel| !pair.contains(panel)).collect();
+            let at = expected.iter().position(|panel| *panel == pile[to]).unwrap() + 1;
+            expected.splice(at..at, pair);
+            assert_eq!(moved, expected, "{from} to {to}, reversed: {reversed}");
+        }
+    }
+}

@@ -42,3 +42,24 @@ impl Groups {
         Some(if random.below(2) == 0 { (a, b) } else { (b, a) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn piles_hang_together_along_matches_and_borders_lie_between_groups() {
+        let pairs = [((0, 1), true), ((1, 2), false), ((1, 2), true), ((2, 3), false), ((3, 4), true)];
+        let groups = Groups::new(5, pairs.into_iter());
+        assert_eq!(groups.count(), 2);
+        let mut random = Random::new(1, 1);
+        let found: BTreeSet<_> = (0..50).filter_map(|_| groups.border(&mut random)).collect();
+        assert_eq!(found, BTreeSet::from([(2, 3), (3, 2)]));
+    }
+
+    #[test]
+    fn piles_of_one_group_have_no_border() {
+        let groups = Groups::new(3, [((0, 1), true), ((0, 2), true), ((1, 2), false)].into_iter());
+        assert_eq!(groups.border(&mut Random::new(1, 1)), None);
+    }
+}

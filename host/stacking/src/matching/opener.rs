@@ -306,3 +306,58 @@ impl<'a> Opener<'a> {
             && other.side(cut.other_edge) == cut.towards.opposite()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rings round the left and the right half of a sheet four wide and four deep.
+    fn halves() -> [Strip; 2] {
+        [0, 2].map(|left| {
+            let there = (0..4).map(|y| 4 * y + left);
+            let back = (0..4).rev().map(|y| 4 * y + left + 1);
+            Strip { order: there.chain(back).collect(), closed: true }
+        })
+    }
+
+    #[test]
+    fn rings_along_a_straight_border_are_opened_so_that_all_of_it_matches() {
+        let dual = Dual::of_sheet(4, 4);
+        for seed in 0..20 {
+            let mut random = Random::new(seed, 1);
+            let mut opener = Opener::new(&dual, &halves(), &[[0, 0], [1, 0]], Bridges::Most);
+            opener.open_all(0, &mut random);
+            opener.better(&mut random);
+            assert_eq!((opener.matches(), opener.groups().count()), (4, 1), "{seed}");
+        }
+    }
+
+    #[test]
+    fn matches_are_neighbours_of_one_height_that_face_each_other_in_the_piles_that_come_out() {
+        let dual = Dual::of_sheet(4, 4);
+        let mut seen = std::collections::BTreeSet::new();
+        let starts = (0..8).flat_map(|start| [0, 1].map(|way| (way, start)));
+        let turns = (0..4).flat_map(|first| (0..4).map(move |turn| (first, turn)));
+        for ((way, start), (first, turn)) in
+            starts.flat_map(|opened| turns.clone().map(move |turns| (opened, turns)))
+        {
+            let mut opener = Opener::new(&dual, &halves(), &[[0, 0], [1, 0]], Bridges::Most);
+            opener.settle(0, Opening { turn: first, ..Opening::default() });
+            opener.settle(1, Opening { way, start, turn });
+            let counted = opener.matches();
+            let Matched { piles, facing, turns, .. } = opener.matched();
+            let side = |pile: usize, panel: usize, other: usize| {
+                let [edge, _] = dual.common_edges(panel, other).unwrap();
+                facing[panel].turned(turns[pile]).side(edge)
+            };
+            let found = piles[0].iter().zip(&piles[1]).filter(|(a, b)| {
+                dual.common_edges(**a, **b).is_some()
+                    && side(0, **a, **b).step() == [1, 0]
+                    && side(1, **b, **a).step() == [-1, 0]
+            });
+            assert_eq!(counted, found.count(), "way {way}, start {start}, turns {first} and {turn}");
+            seen.insert(counted);
+        }
+        assert!(seen.len() > 1, "openings differ: {seen:?}");
+    }
+}

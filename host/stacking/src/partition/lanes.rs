@@ -84,3 +84,59 @@ fn rows(border: &BTreeMap<usize, BTreeSet<usize>>, taken: &mut BTreeSet<usize>) 
     }
     rows
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The left and the right half of a sheet eight wide and four deep.
+    fn halves() -> Vec<Vec<usize>> {
+        [0..4, 4..8].map(|xs| (0..32).filter(|panel| xs.contains(&(panel % 8))).collect()).to_vec()
+    }
+
+    #[test]
+    fn the_lane_of_a_straight_border_is_the_row_of_panels_along_it() {
+        let (dual, parts) = (Dual::of_sheet(8, 4), halves());
+        let borders = Borders::of(&dual, &parts);
+        for (part, x) in [(0, 3), (1, 4)] {
+            let mut lanes = borders.lanes(&parts[part], |_| true);
+            assert_eq!(lanes.len(), 1, "{lanes:?}");
+            if lanes[0][0] != x {
+                lanes[0].reverse();
+            }
+            assert_eq!(lanes[0], [x, x + 8, x + 16, x + 24]);
+        }
+    }
+
+    #[test]
+    fn borders_with_parts_that_are_not_wanted_have_no_lanes() {
+        let (dual, parts) = (Dual::of_sheet(8, 4), halves());
+        assert!(Borders::of(&dual, &parts).lanes(&parts[0], |other| other != 1).is_empty());
+    }
+
+    #[test]
+    fn lanes_are_rows_of_three_neighbours_at_least_that_share_no_panel() {
+        // Nine squares of nine panels: every border ends where two others cross it.
+        let dual = Dual::of_sheet(9, 9);
+        let part = |panel: usize| 3 * (panel / 27) + panel % 9 / 3;
+        let parts: Vec<Vec<usize>> =
+            (0..9).map(|name| (0..81).filter(|panel| part(*panel) == name).collect()).collect();
+        let borders = Borders::of(&dual, &parts);
+        let mut found = 0;
+        for (name, members) in parts.iter().enumerate() {
+            let lanes = borders.lanes(members, |_| true);
+            let panels: BTreeSet<usize> = lanes.iter().flatten().copied().collect();
+            assert_eq!(panels.len(), lanes.iter().map(Vec::len).sum::<usize>());
+            assert!(panels.iter().all(|panel| part(*panel) == name));
+            for lane in &lanes {
+                assert!(lane.len() >= 3, "{lane:?}");
+                assert!(
+                    lane.windows(2).all(|pair| dual.common_edges(pair[0], pair[1]).is_some()),
+                    "{lane:?}"
+                );
+            }
+            found += lanes.len();
+        }
+        assert!(found >= 9, "{found}");
+    }
+}

@@ -99,3 +99,58 @@ fn exchange(
     let anywhere = of_pair[(lot + other_lot + of_pair.len() - 1) % of_pair.len()];
     Some(if node_anywhere { [anywhere.0, beyond] } else { [node, anywhere.1] })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dual::Dual;
+
+    fn defects(graph: &Neighbours, parts: &[Vec<usize>]) -> usize {
+        let name_of = super::super::part_of(parts, graph.len());
+        (0..parts.len()).map(|name| Part { graph, name_of: &name_of, name }.defects()).sum()
+    }
+
+    #[test]
+    fn parts_that_settle_keep_their_sizes_and_never_have_more_defects() {
+        let graph = Dual::of_sheet(6, 6).neighbours();
+        // A bend in the border that leaves each part a panel with one neighbour.
+        let mut before: Vec<Vec<usize>> =
+            [0..3, 3..6].map(|xs| (0..36).filter(|panel| xs.contains(&(panel % 6))).collect()).to_vec();
+        before[0].retain(|panel| *panel != 14);
+        before[0].push(21);
+        before[1].retain(|panel| *panel != 21);
+        before[1].push(14);
+        assert!(defects(&graph, &before) > 0);
+        let mut sound = 0;
+        for seed in 0..20 {
+            let mut parts = before.clone();
+            settle(&graph, &mut parts, false, &mut Numbering::new(36), &mut Random::new(seed, 1));
+            let mut all = parts.concat();
+            all.sort_unstable();
+            assert!(all.iter().copied().eq(0..36), "{seed}: {all:?}");
+            assert!(parts.iter().all(|part| part.len() == 18), "{seed}");
+            assert!(defects(&graph, &parts) <= defects(&graph, &before), "{seed}");
+            sound += usize::from(defects(&graph, &parts) == 0);
+        }
+        assert!(sound >= 10, "{sound} of 20 parts lost all defects");
+    }
+
+    #[test]
+    fn panels_change_places_across_one_border_only() {
+        let graph = Dual::of_sheet(6, 2).neighbours();
+        // Three parts two wide side by side.
+        let part_of: Vec<usize> = (0..12).map(|panel| panel % 6 / 2).collect();
+        let mut random = Random::new(1, 1);
+        let mut reached = std::collections::BTreeSet::new();
+        for _ in 0..200 {
+            let [leaves, comes] = exchange(&graph, &part_of, 1, &[], &mut random).unwrap();
+            assert_eq!(part_of[leaves], 1);
+            assert!(part_of[comes] != 1 && leaves % 6 / 2 != comes % 6 / 2);
+            let near = |node: usize, part: usize| graph[node].iter().any(|near| part_of[*near] == part);
+            assert!(near(leaves, part_of[comes]) && near(comes, 1), "{leaves} and {comes}");
+            reached.insert((leaves, comes));
+        }
+        // Each of two borders has two panels a side, in any pairing.
+        assert_eq!(reached.len(), 8);
+    }
+}
