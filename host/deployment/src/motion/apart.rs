@@ -10,7 +10,10 @@ use super::turning::{Body, Interval};
 use glam::DVec3;
 
 /// Over less than this, panel lengths, intervals aren't halved any more.
-pub const FINEST: f64 = 2.5e-4;
+///
+/// Plates that are laid against each other come apart by the square of the angle only: this fine, that is below
+/// [`TOUCHING`].
+pub const FINEST: f64 = 1e-5;
 
 /// Where two bodies meet, or come too near to tell.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! A motion under way: which hinges are open, where every panel is, and what would happen if one more opened.
 
-use super::apart::{Conflict, Pair, Wanted, apart};
+use super::apart::{Conflict, Pair, Wanted};
 use super::block::{self, Block};
 use super::collision::{Collision, Obstacle};
 use super::cuboid::Cuboid;
@@ -138,12 +138,24 @@ impl Motion {
         if carried(first, second) || carried(second, first) {
             return false;
         }
-        let sweeps = [first, second].map(|hinge| {
+        let [ours, theirs] = [first, second].map(|hinge| {
             let turn = self.linkage.turn(hinge, &self.poses);
             let (moving, _) = self.blocks(hinge);
-            moving.iter().map(|block| Body::turning(block.cuboid, &turn)).collect::<Vec<_>>()
+            let swept = |block: &Block| {
+                let body = Body::turning(block.cuboid, &turn);
+                (body, body.swept())
+            };
+            moving.iter().map(swept).collect::<Vec<_>>()
         });
-        sweeps[0].iter().all(|a| sweeps[1].iter().all(|b| apart(a, b).is_ok()))
+        ours.iter().all(|(first, [low, high])| {
+            theirs.iter().all(|(second, [other_low, other_high])| {
+                low.cmpgt(*other_high).any()
+                    || other_low.cmpgt(*high).any()
+                    || Pair { first, second, wanted: Wanted::Any, clearance: None, hint: None }
+                        .over_all()
+                        .is_none()
+            })
+        })
     }
 
     fn set(&mut self, hinge: usize, open: bool) {

@@ -226,6 +226,18 @@ impl Body {
         quarters(angle)
     }
 
+    /// The least and the greatest coordinates over the whole motion.
+    pub(super) fn swept(&self) -> [DVec3; 2] {
+        let pieces = self.quarters();
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
+            let extents = pieces.iter().map(|piece| self.extent(axis, piece));
+            extents.fold([f64::INFINITY, f64::NEG_INFINITY], |all, [low, high]| {
+                [all[0].min(low), all[1].max(high)]
+            })
+        });
+        [0, 1].map(|end| DVec3::new(x[end], y[end], z[end]))
+    }
+
     /// No point of the box travels further over the interval, panel lengths.
     pub(super) fn travel(&self, interval: &Interval) -> f64 {
         self.turning.map_or(0.0, |turning| turning.speed * interval.width())
