@@ -99,13 +99,11 @@ impl Motion {
         if self.open[hinge] {
             return Ok(());
         }
-        match self.blocked(hinge) {
-            Some(collision) => Err(collision),
-            None => {
-                self.open(hinge);
-                Ok(())
-            }
+        if let Some(collision) = self.blocked(hinge) {
+            return Err(collision);
         }
+        self.open(hinge);
+        Ok(())
     }
 
     /// Some collision that opening a closed hinge would cause; the first that is found. `None` also where it is open.
@@ -197,7 +195,7 @@ impl Motion {
         if let Some(plane) = &self.ground {
             let meets = bodies.iter().zip(&moving).filter_map(|(body, block)| {
                 let conflict = plane.conflict(body)?;
-                Some(self.into_ground(hinge, block, &turn, plane, conflict))
+                Some(self.with_ground(hinge, block, &turn, plane, conflict))
             });
             for collision in meets {
                 if take(collision) {
@@ -258,7 +256,7 @@ impl Motion {
     }
 
     /// Names a collision with the ground.
-    fn into_ground(
+    fn with_ground(
         &self,
         hinge: usize,
         block: &Block,

@@ -12,7 +12,7 @@ fn piles(number: usize, height: usize, hinges: Vec<Hinge>) -> Plan {
     let mut plan = strip(number * height);
     for panel in 0..number * height {
         let x = i32::try_from(panel / height).expect("few");
-        plan.zygote[panel] = if panel % height % 2 == 0 {
+        plan.zygote[panel] = if (panel % height).is_multiple_of(2) {
             [[x, 0], [x + 1, 0], [x + 1, 1], [x, 1]]
         } else {
             [[x, 0], [x, 1], [x + 1, 1], [x + 1, 0]]

@@ -66,8 +66,8 @@ fn open_plates_have_their_outer_faces_on_the_squares_of_the_target() {
                 let own = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
                 let at = poses[panel].transform_point3(own[corner]);
                 // Distances to three corners of the root fix a point up to a mirror image.
-                for seen_from in 0..3 {
-                    let root = poses[plan.root].transform_point3(own[seen_from]);
+                for (seen_from, from) in own[..3].iter().enumerate() {
+                    let root = poses[plan.root].transform_point3(*from);
                     let expected = target(panel, corner).distance(target(plan.root, seen_from));
                     assert!((at.distance(root) - expected).abs() < SAME, "panel {panel}");
                 }
