@@ -34,7 +34,7 @@ fn main() {
         let path = if name.contains('.') { Path::new(name) } else { &own };
         let model = Model::read(path, None).unwrap();
         for piles in [1, 2, 4] {
-            if model.surface().len() % piles != 0 {
+            if !model.surface().len().is_multiple_of(piles) {
                 continue;
             }
             let request = Request { piles, bridges: Bridges::Least, ..Request::default() };
