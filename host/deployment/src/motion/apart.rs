@@ -38,7 +38,9 @@ pub(super) enum Wanted {
 /// # Errors
 /// The conflict.
 pub fn apart(first: &Body, second: &Body) -> Result<(), Conflict> {
-    Pair { first, second, wanted: Wanted::Least, clearance: None, hint: None }.over_all().map_or(Ok(()), Err)
+    Pair { first, second, wanted: Wanted::Least, touching: TOUCHING, clearance: None, hint: None }
+        .over_all()
+        .map_or(Ok(()), Err)
 }
 
 /// Two bodies in question.
@@ -46,6 +48,8 @@ pub(super) struct Pair<'a> {
     pub(super) first: &'a Body,
     pub(super) second: &'a Body,
     pub(super) wanted: Wanted,
+    /// So much of overlap still is touching.
+    pub(super) touching: f64,
     /// The least clearance so far, where somebody asks for it: lowered to what is proved for these two.
     pub(super) clearance: Option<&'a mut f64>,
     /// The direction that parted them last.
@@ -77,7 +81,7 @@ impl Pair<'_> {
         }
         if self.wanted == Wanted::Any {
             let (a, b) = (first.middle(), second.middle());
-            if self.first.at(a).gap(&self.second.at(b)) < -TOUCHING {
+            if self.first.at(a).gap(&self.second.at(b)) < -self.touching {
                 return Some(Conflict { first: [a, a], second: [b, b] });
             }
         }
@@ -97,7 +101,7 @@ impl Pair<'_> {
             let [low, high] = self.first.extent(direction, first);
             let [other_low, other_high] = self.second.extent(direction, second);
             let gap = (other_low - high).max(low - other_high);
-            if gap < -TOUCHING {
+            if gap < -self.touching {
                 continue;
             }
             if widest.is_none_or(|widest| gap > widest) {

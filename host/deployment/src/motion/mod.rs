@@ -35,5 +35,5 @@ pub use thickness::{MotionError, Thickness};
 pub use turning::{Body, Interval, Turn};
 
 /// So much of overlap, in panel lengths, is rounding, not a collision: far above the error of poses along thousands of
-/// joints, far below any thickness.
+/// joints, far below any thickness. See also [`Thickness::touching`].
 pub const TOUCHING: f64 = 1e-9;

@@ -145,11 +145,12 @@ impl Motion {
             };
             moving.iter().map(swept).collect::<Vec<_>>()
         });
+        let touching = self.linkage.thickness().touching();
         ours.iter().all(|(first, [low, high])| {
             theirs.iter().all(|(second, [other_low, other_high])| {
                 low.cmpgt(*other_high).any()
                     || other_low.cmpgt(*high).any()
-                    || Pair { first, second, wanted: Wanted::Any, clearance: None, hint: None }
+                    || Pair { first, second, wanted: Wanted::Any, touching, clearance: None, hint: None }
                         .over_all()
                         .is_none()
             })
@@ -203,13 +204,15 @@ impl Motion {
                 }
             }
         }
+        let touching = self.linkage.thickness().touching();
         near::each(&turn, &moving, &still, |a, b| {
             tally.box_pairs += 1;
             let (body, other) = (&bodies[a], Body::still(still[b].cuboid));
             // What touches at the start or at the end of the motion has no clearance to speak of.
             let touches = || [0.0, turn.angle].iter().any(|at| body.at(*at).gap(other.start()) <= TOUCHING);
             let clearance = (wanted == Wanted::Least && !touches()).then_some(&mut tally.clearance);
-            let conflict = Pair { first: body, second: &other, wanted, clearance, hint: None }.over_all();
+            let conflict =
+                Pair { first: body, second: &other, wanted, touching, clearance, hint: None }.over_all();
             conflict.is_some_and(|conflict| {
                 take(self.between(hinge, [&moving[a], &still[b]], &turn, wanted, &conflict))
             })

@@ -17,6 +17,9 @@ const IDEAL_PILE: f64 = 1e-3;
 /// The border that goes with it: wider than such a pile is high, far narrower than a panel.
 const IDEAL_RIM: f64 = 0.01;
 
+/// See [`Thickness::touching`].
+const TOUCHING_SHARE: f64 = 2e-5;
+
 impl Thickness {
     /// Panels without thickness, as the limit of thin ones, so that their order in a pile still counts.
     pub fn ideal(plan: &Plan) -> Self {
@@ -26,6 +29,12 @@ impl Thickness {
     /// Panels as thick as the plan says, whose edges may touch: a border as wide as the thickness.
     pub fn of(plan: &Plan) -> Self {
         Self { thickness: plan.thickness, rim: plan.thickness }
+    }
+
+    /// So much of overlap of two cores, panel lengths, still is touching: a 50,000th of a thickness. Plates that pivot on
+    /// each other's edge couldn't be told from plates that meet otherwise.
+    pub fn touching(&self) -> f64 {
+        (self.thickness * TOUCHING_SHARE).max(super::TOUCHING)
     }
 
     /// The same, if plates can be so.

@@ -7,7 +7,8 @@ use glam::{DAffine3, DVec3};
 use std::collections::BTreeSet;
 use zygote_stacking::{Model, Plan, Request, Surface};
 
-/// Cores are shrunk by this on all sides, so that what only touches doesn't count.
+/// Cores are shrunk by this on all sides, so that what only touches doesn't count: for two of them together no
+/// less than [`Thickness::touching`].
 const SHRUNK: f64 = 1e-6;
 
 /// The eight corners of a panel's core.
