@@ -5,6 +5,7 @@
 //!                                               +--> Schedule (steps, one a hinge) --verify--> a run
 //! plan ------> Tree --order--> hinges in order -+
 //! plan ------> Tolerance: how far panels are off, and cut edges gape, when hinges aren't exact
+//! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
 //! plan ------> Kinematics --> poses of all panels --> picture (SVG)
 //! ```
 //!
@@ -12,6 +13,7 @@
 
 mod heating;
 mod kinematics;
+pub mod motion;
 pub mod picture;
 mod rig;
 mod schedule;

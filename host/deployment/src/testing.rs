@@ -68,7 +68,7 @@ springs = 2
 }
 
 /// The squares between some voxels and the rest of space, counter-clockwise seen from outside.
-fn boundary(voxels: &[[i32; 3]]) -> Vec<[[i32; 3]; 4]> {
+pub(crate) fn boundary(voxels: &[[i32; 3]]) -> Vec<[[i32; 3]; 4]> {
     let mut quads = Vec::new();
     for voxel in voxels {
         for axis in 0..3 {
