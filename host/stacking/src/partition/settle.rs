@@ -105,7 +105,7 @@ mod tests {
     use super::*;
     use crate::dual::Dual;
 
-    fn defects(graph: &Neighbours, parts: &[Vec<usize>]) -> usize {
+    fn defects(graph: &Adjacency, parts: &[Vec<usize>]) -> usize {
         let name_of = super::super::part_of(parts, graph.len());
         (0..parts.len()).map(|name| Part { graph, name_of: &name_of, name }.defects()).sum()
     }
@@ -124,7 +124,14 @@ mod tests {
         let mut sound = 0;
         for seed in 0..20 {
             let mut parts = before.clone();
-            settle(&graph, &mut parts, false, &mut Numbering::new(36), &mut Random::new(seed, 1));
+            settle(
+                &graph,
+                &mut parts,
+                false,
+                &Held::none(),
+                &mut Numbering::new(36),
+                &mut Random::new(seed, 1),
+            );
             let mut all = parts.concat();
             all.sort_unstable();
             assert!(all.iter().copied().eq(0..36), "{seed}: {all:?}");
@@ -143,7 +150,8 @@ mod tests {
         let mut random = Random::new(1, 1);
         let mut reached = std::collections::BTreeSet::new();
         for _ in 0..200 {
-            let [leaves, comes] = exchange(&graph, &part_of, 1, &[], &mut random).unwrap();
+            let [leaves, comes] =
+                exchange(&graph, &part_of, &vec![true; graph.len()], 1, &[], &mut random).unwrap();
             assert_eq!(part_of[leaves], 1);
             assert!(part_of[comes] != 1 && leaves % 6 / 2 != comes % 6 / 2);
             let near = |node: usize, part: usize| graph[node].iter().any(|near| part_of[*near] == part);
