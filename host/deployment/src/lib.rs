@@ -14,6 +14,7 @@
 mod heating;
 mod kinematics;
 pub mod motion;
+mod order;
 pub mod picture;
 mod rig;
 mod schedule;
@@ -23,6 +24,7 @@ mod tolerance;
 mod tree;
 
 pub use kinematics::Kinematics;
+pub use order::Order;
 pub use rig::*;
 pub use schedule::*;
 pub use tolerance::{HingeErrors, SingleStripError, Spread, Tolerance, ToleranceError, single_strip};

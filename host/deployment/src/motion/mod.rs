@@ -13,6 +13,7 @@
 
 mod apart;
 mod block;
+mod certificate;
 mod check;
 mod collision;
 mod cuboid;
@@ -25,6 +26,7 @@ mod thickness;
 mod turning;
 
 pub use apart::{Conflict, FINEST, apart};
+pub use certificate::Certificate;
 pub use check::{Options, OrderError, Report, check};
 pub use collision::{Collision, Obstacle};
 pub use cuboid::Cuboid;
