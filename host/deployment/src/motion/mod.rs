@@ -19,6 +19,7 @@ mod collision;
 mod cuboid;
 mod linkage;
 mod near;
+mod search;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -32,6 +33,7 @@ pub use collision::{Collision, Obstacle};
 pub use cuboid::Cuboid;
 pub use linkage::Linkage;
 pub use near::LOOKED_FOR;
+pub use search::{Found, Scope, search};
 pub use state::{Ground, Motion};
 pub use thickness::{MotionError, Thickness};
 pub use turning::{Body, Interval, Turn};
