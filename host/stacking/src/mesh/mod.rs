@@ -1,13 +1,16 @@
 //! Triangle meshes and the voxels that stand for them: repair, filling, one piece, number of panels, distance. The readers
 //! call it.
 
+mod closed;
 mod distance;
 mod edit;
 mod fill;
+mod indexed;
 mod nearest;
 mod one_piece;
 mod orient;
 mod panels;
+mod patch;
 mod repair;
 mod simple;
 mod thin;
@@ -19,9 +22,9 @@ pub use repair::Repair;
 use crate::readers::{ModelProblem, Resolution};
 use crate::square::Quad;
 use crate::voxels::Voxels;
+use closed::{Repaired, Rest};
 use fill::Filled;
 use nearest::{Facet, Nearest};
-use repair::{Repaired, Rest};
 use winding::Hole;
 
 /// A corner, in units of the mesh.
@@ -73,7 +76,7 @@ impl Mesh {
     /// # Errors
     /// Coordinates that are no numbers, a mesh that is not closed and doesn't tell inside from outside.
     pub(crate) fn new(triangles: Vec<Triangle>) -> Result<Self, ModelProblem> {
-        let Repaired { triangles, repairs, rest } = repair::closed(triangles)?;
+        let Repaired { triangles, repairs, rest } = closed::closed(triangles)?;
         let all = |axis: usize| triangles.iter().flatten().map(move |corner| corner[axis]);
         let least = [0, 1, 2].map(|axis| all(axis).fold(f64::INFINITY, f64::min));
         let extent = [0, 1, 2].map(|axis| all(axis).fold(f64::NEG_INFINITY, f64::max) - least[axis]);
