@@ -114,10 +114,22 @@ fn quads_that_are_none_on_the_lattice_are_refused_with_their_line() {
         "bad/off_lattice.obj",
         &[],
         2,
-        &["line 4: vertex coordinate 1.5, expected a whole number"],
+        &["line 4: vertex coordinate 1.5, expected a whole number", "give --voxel SIZE or --panels N"],
     );
-    assert_refused("bad/long.obj", &[], 2, &["the face on line 6: corners", "expected a unit square"]);
+    assert_refused(
+        "bad/long.obj",
+        &[],
+        2,
+        &["the face on line 6: corners", "expected a unit square", "give --voxel SIZE or --panels N"],
+    );
     assert_refused("bad/twice.obj", &[], 2, &["the face on line 7", "the face on line 6", "every face once"]);
+}
+
+#[test]
+fn a_mesh_without_a_voxel_size_is_refused_with_the_options_that_help() {
+    for mesh in ["house.stl", "knot.off", "bird.obj"] {
+        assert_refused(mesh, &[], 2, &["--voxel SIZE", "--panels N"]);
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A triangle mesh by numbers of corners, and its edges that keep it from bounding a solid. The repairs work on it.
 
-use super::{Corner, Triangle, dot};
+use super::{Corner, Triangle, distance, dot};
 use crate::readers::ModelProblem;
 use std::collections::HashMap;
 
@@ -86,6 +86,9 @@ impl Indexed {
             if a.partial_cmp(&b).is_none_or(std::cmp::Ordering::is_le) { [a, b] } else { [b, a] }
         };
         let first = loose.iter().map(place).reduce(|a, b| if b < a { b } else { a }).unwrap_or_default();
+        // A millionth of the box is no place on a mesh.
+        let digits = 1e-6 * self.diagonal();
+        let first = first.map(|corner| corner.map(|c| distance::rounded_at(c, digits)));
         let [from, to] = first.map(|[x, y, z]| format!("({x}, {y}, {z})"));
         ModelProblem::NotClosed { open, unlike: loose.len() - open, from, to }
     }
