@@ -166,7 +166,12 @@ fn a_voxel_size_is_needed_for_a_mesh_and_only_for_a_mesh() {
     assert_refused("house.stl", &[], 2, &["give --voxel SIZE"]);
     assert_refused("house.stl", &["--voxel", "0"], 2, &["voxel size 0, expected a length above 0"]);
     assert_refused("house.stl", &["--voxel", "100"], 2, &["no voxel of size 100", "4 x 3 x 4"]);
-    assert_refused("house.stl", &["--voxel", "1e-6"], 2, &["voxels in the box, expected at most"]);
+    assert_refused(
+        "house.stl",
+        &["--voxel", "1e-6"],
+        2,
+        &["voxels of size 0.000001", "expected a larger size"],
+    );
     assert_refused("i14.txt", &["--voxel", "1"], 2, &["for meshes only: this format has voxels already"]);
     assert_refused("i14.txt", &["--panels", "20"], 2, &["for meshes only: this format has voxels already"]);
 }

@@ -253,8 +253,8 @@ pub enum ModelProblem {
     /// A mesh with holes, or with triangles turned inside out.
     #[error(
         "the mesh is not closed: {open} open edges, {unlike} edges between triangles of unlike orientation; \
-         the first from {from} to {to}; expected every edge to be passed once in each direction: close the holes; \
-         or for an open sheet give its panels, unit squares on the lattice (.obj)"
+         the first from {from} to {to}; expected every edge to be passed once in each direction; \
+         close its holes, or give an open sheet by its panels, unit squares on the lattice (.obj)"
     )]
     NotClosed {
         /// Edges that belong to one triangle only.
