@@ -117,10 +117,22 @@ fn quads_that_are_none_on_the_lattice_are_refused_with_their_line() {
         "bad/off_lattice.obj",
         &[],
         2,
-        &["line 4: vertex coordinate 1.5, expected a whole number"],
+        &["line 4: vertex coordinate 1.5, expected a whole number", "give --voxel SIZE or --panels N"],
     );
-    assert_refused("bad/long.obj", &[], 2, &["the face on line 6: corners", "expected a unit square"]);
+    assert_refused(
+        "bad/long.obj",
+        &[],
+        2,
+        &["the face on line 6: corners", "expected a unit square", "give --voxel SIZE or --panels N"],
+    );
     assert_refused("bad/twice.obj", &[], 2, &["the face on line 7", "the face on line 6", "every face once"]);
+}
+
+#[test]
+fn a_mesh_without_a_voxel_size_is_refused_with_the_options_that_help() {
+    for mesh in ["house.stl", "knot.off", "bird.obj"] {
+        assert_refused(mesh, &[], 2, &["--voxel SIZE", "--panels N"]);
+    }
 }
 
 #[test]
@@ -157,7 +169,12 @@ fn a_voxel_size_is_needed_for_a_mesh_and_only_for_a_mesh() {
     assert_refused("house.stl", &[], 2, &["give --voxel SIZE"]);
     assert_refused("house.stl", &["--voxel", "0"], 2, &["voxel size 0, expected a length above 0"]);
     assert_refused("house.stl", &["--voxel", "100"], 2, &["no voxel of size 100", "4 x 3 x 4"]);
-    assert_refused("house.stl", &["--voxel", "1e-6"], 2, &["voxels in the box, expected at most"]);
+    assert_refused(
+        "house.stl",
+        &["--voxel", "1e-6"],
+        2,
+        &["voxels of size 0.000001", "expected a larger size"],
+    );
     assert_refused("i14.txt", &["--voxel", "1"], 2, &["for meshes only: this format has voxels already"]);
     assert_refused("i14.txt", &["--panels", "20"], 2, &["for meshes only: this format has voxels already"]);
 }
