@@ -12,11 +12,13 @@
 //! Two cores collide where their interiors do; touching is none.
 
 mod apart;
+mod backward;
 mod block;
 mod certificate;
 mod check;
 mod collision;
 mod cuboid;
+mod forward;
 mod linkage;
 mod near;
 mod search;
@@ -33,7 +35,7 @@ pub use collision::{Collision, Obstacle};
 pub use cuboid::Cuboid;
 pub use linkage::Linkage;
 pub use near::LOOKED_FOR;
-pub use search::{Found, Scope, search};
+pub use search::{Effort, Found, Scope, search};
 pub use state::{Ground, Motion};
 pub use thickness::{MotionError, Thickness};
 pub use turning::{Body, Interval, Turn};
