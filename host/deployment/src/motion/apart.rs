@@ -38,7 +38,7 @@ pub(super) enum Wanted {
 /// # Errors
 /// The conflict.
 pub fn apart(first: &Body, second: &Body) -> Result<(), Conflict> {
-    Pair { first, second, wanted: Wanted::Least, touching: TOUCHING, clearance: None, hint: None }
+    Pair { first, second, wanted: Wanted::Least, touching: TOUCHING, finest: FINEST, clearance: None, hint: None }
         .over_all()
         .map_or(Ok(()), Err)
 }
@@ -50,6 +50,8 @@ pub(super) struct Pair<'a> {
     pub(super) wanted: Wanted,
     /// So much of overlap still is touching.
     pub(super) touching: f64,
+    /// Intervals over which both travel less aren't halved: [`FINEST`], or more where a conflict may be wrong by more.
+    pub(super) finest: f64,
     /// The least clearance so far, where somebody asks for it: lowered to what is proved for these two.
     pub(super) clearance: Option<&'a mut f64>,
     /// The direction that parted them last.
@@ -76,7 +78,7 @@ impl Pair<'_> {
         }
         let travel = (self.first.travel(first), self.second.travel(second));
         let found = Conflict { first: [first.from, first.to], second: [second.from, second.to] };
-        if travel.0.max(travel.1) <= FINEST {
+        if travel.0.max(travel.1) <= self.finest {
             return Some(found);
         }
         if self.wanted == Wanted::Any {
