@@ -99,7 +99,13 @@ impl Pair<'_> {
         let (a, b) = (self.first.at(first.middle()), self.second.at(second.middle()));
         let axes = [self.hint, self.first.axis(), self.second.axis()].into_iter().flatten();
         let mut widest: Option<f64> = None;
-        for direction in axes.chain(directions(&a.half, &b.half)) {
+        // Where both turn, what lies against the other at an end of the interval is parted by its normal there, by none of
+        // the middle.
+        let both = self.first.axis().is_some() && self.second.axis().is_some();
+        let normal = |body: &Body, angle: f64| body.at(angle).half[2].normalize_or_zero();
+        let at_ends = [(self.first, first), (self.second, second)].into_iter().filter(|_| both);
+        let at_ends = at_ends.flat_map(|(body, over)| [normal(body, over.from), normal(body, over.to)]);
+        for direction in axes.chain(directions(&a.half, &b.half)).chain(at_ends) {
             let [low, high] = self.first.extent(direction, first);
             let [other_low, other_high] = self.second.extent(direction, second);
             let gap = (other_low - high).max(low - other_high);

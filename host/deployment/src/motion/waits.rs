@@ -33,7 +33,7 @@ const MOST_BOXES: usize = 400_000;
 
 /// Legs of which it doesn't show that they are apart in pieces of so much travel, panel lengths, keep their order: finer
 /// pieces of two turns at once are many.
-const FINEST: f64 = 1e-3;
+const FINEST: f64 = 1e-4;
 
 /// The order with only those waits that keep it free whatever the hinges' speeds, and of those none that follows from others.
 ///
