@@ -43,6 +43,24 @@ fn bridges_partition_and_grid_can_be_asked_for() {
 }
 
 #[test]
+fn a_plan_that_opens_freely_can_be_asked_for() {
+    let place = Scratch::new("plan_free");
+    let plan = |name: &str, options: &[&str]| {
+        let model = model(name);
+        let run = place.zygote(&[&["plan", &model, "-o", "free.fold", "--free"], options].concat());
+        (run.code, run.output + &run.errors)
+    };
+    let (code, output) = plan("fish92.txt", &["ideal", "--piles", "4"]);
+    assert!(code == 0 && output.contains("motion: free, from the root outwards"), "{output}");
+    assert!(output.contains("\nbridges: 3,"), "around a base: {output}");
+    let (code, output) = plan("l14.txt", &["thick", "--piles", "2", "--thickness", "0.05"]);
+    assert!(code == 0 && output.contains("motion: free,"), "{output}");
+    // Panels as thick as they are long don't open.
+    let (code, output) = plan("i14.txt", &["thick", "--thickness", "0.4", "--tries", "1"]);
+    assert!(code == 1 && output.contains("of 1 plans none opens freely"), "{output}");
+}
+
+#[test]
 fn the_same_command_writes_the_same_bytes() {
     let place = Scratch::new("plan_bytes");
     for name in ["a.fold", "b.fold"] {

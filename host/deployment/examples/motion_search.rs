@@ -5,7 +5,7 @@
 
 use std::path::Path;
 use std::time::Instant;
-use zygote_deployment::motion::{Options, Thickness, check, search};
+use zygote_deployment::motion::{Effort, Options, Thickness, check, search};
 use zygote_stacking::{Bridges, Model, Plan, Request, plan};
 
 fn main() {
@@ -34,7 +34,7 @@ fn main() {
                     Err(_) => Thickness::ideal(&plan),
                 };
                 let begin = Instant::now();
-                let found = search(&plan, thickness, None, &mut |_, _| {}).unwrap();
+                let found = search(&plan, thickness, None, &Effort::default(), &mut |_, _| {}).unwrap();
                 let seconds = begin.elapsed().as_secs_f64();
                 let begin = Instant::now();
                 let report =

@@ -13,11 +13,14 @@
 //! Two cores collide where their interiors do; touching is none.
 
 mod apart;
+mod backward;
 mod block;
 mod certificate;
 mod check;
 mod collision;
 mod cuboid;
+mod forward;
+mod free_plan;
 mod linkage;
 mod near;
 mod search;
@@ -33,9 +36,10 @@ pub use certificate::Certificate;
 pub use check::{Options, OrderError, Report, check};
 pub use collision::{Collision, Obstacle};
 pub use cuboid::Cuboid;
+pub use free_plan::{FreePlan, FreePlanError, Plates, free_plan};
 pub use linkage::Linkage;
 pub use near::LOOKED_FOR;
-pub use search::{Found, Scope, search};
+pub use search::{Effort, Found, Scope, search};
 pub use state::{Ground, Motion};
 pub use thickness::{MotionError, Thickness};
 pub use turning::{Body, Interval, Turn};

@@ -116,6 +116,16 @@ impl Motion {
         first
     }
 
+    /// The same among some panels alone: nothing else is looked at.
+    pub(super) fn blocked_among(&self, hinge: usize, counts: &dyn Fn(usize) -> bool) -> bool {
+        let mut blocked = false;
+        self.examine_among(hinge, counts, Wanted::Any, &mut Tally::new(), &mut |_| {
+            blocked = true;
+            true
+        });
+        blocked
+    }
+
     /// All collisions that opening a closed hinge causes, one for every two blocks that meet.
     pub(super) fn collisions(&self, hinge: usize, tally: &mut Tally) -> Vec<Collision> {
         let mut all = Vec::new();
@@ -195,11 +205,25 @@ impl Motion {
         tally: &mut Tally,
         take: &mut dyn FnMut(Collision) -> bool,
     ) {
+        self.examine_among(hinge, &|_| true, wanted, tally, take);
+    }
+
+    /// The same for blocks of panels that count.
+    fn examine_among(
+        &self,
+        hinge: usize,
+        counts: &dyn Fn(usize) -> bool,
+        wanted: Wanted,
+        tally: &mut Tally,
+        take: &mut dyn FnMut(Collision) -> bool,
+    ) {
         let turn = self.linkage.turn(hinge, &self.poses);
         if self.open[hinge] || turn.angle == 0.0 {
             return;
         }
-        let (moving, still) = self.blocks(hinge);
+        let (mut moving, mut still) = self.blocks(hinge);
+        moving.retain(|block| counts(block.layers[0].panel));
+        still.retain(|block| counts(block.layers[0].panel));
         let panels = |blocks: &[Block]| blocks.iter().map(|block| block.layers.len() as u64).sum::<u64>();
         tally.panel_pairs += panels(&moving) * panels(&still);
         let bodies: Vec<_> = moving.iter().map(|block| Body::turning(block.cuboid, &turn)).collect();
