@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Plan -> Plates (hinges as motions in the zygote's space) -> Sampler: boxes that move against all others, degree by degree
+//! Schedule -> Scheduled (order, certificate)
 //! Order -> runs: one by one; and at once, every hinge as soon as it may and at its own random speed
 //!     -> Verdict: who meets whom, and the least clearance seen
 //! ```
@@ -13,13 +14,16 @@
 mod plates;
 mod run;
 mod sampler;
+mod scheduled;
 mod slab;
 #[cfg(test)]
 mod tests;
 
 use crate::order::Order;
+use crate::schedule::Fingerprint;
 use plates::Plates;
 use sampler::Sampler;
+pub use scheduled::Scheduled;
 use std::fmt;
 use zygote_stacking::Plan;
 
@@ -68,6 +72,20 @@ pub enum DenseError {
     Order {
         /// The hinge.
         hinge: usize,
+    },
+    /// No schedule, as far as its motion goes.
+    #[error("schedule: {error}")]
+    Schedule {
+        /// What the reader of JSON says.
+        error: String,
+    },
+    /// A schedule of another plan.
+    #[error("schedule: made for plan {schedule}, this is plan {plan}")]
+    OtherPlan {
+        /// The plan in the schedule.
+        schedule: Fingerprint,
+        /// The plan at hand.
+        plan: Fingerprint,
     },
 }
 

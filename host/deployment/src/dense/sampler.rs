@@ -76,9 +76,10 @@ impl<'a> Sampler<'a> {
         // The ground is under the whole of the plates, not their cores.
         sampler.ground = setting.ground.map(|normal| {
             let normal = DVec3::from_array(normal).normalize();
-            let lowest = plates.piles.iter().map(|(cell, layers)| {
-                core(*cell, 0, layers.len(), plates.thickness, 0.0).lowest(normal)
-            });
+            let lowest = plates
+                .piles
+                .iter()
+                .map(|(cell, layers)| core(*cell, 0, layers.len(), plates.thickness, 0.0).lowest(normal));
             (normal, lowest.fold(f64::INFINITY, f64::min))
         });
         sampler
@@ -145,10 +146,7 @@ impl<'a> Sampler<'a> {
                 };
                 if let Some(near) = &near {
                     let [low, high] = slab.bounds();
-                    let reach = AABB::from_corners(
-                        low.map(|low| low - NEAR),
-                        high.map(|high| high + NEAR),
-                    );
+                    let reach = AABB::from_corners(low.map(|low| low - NEAR), high.map(|high| high + NEAR));
                     for found in near.locate_in_envelope_intersecting(reach) {
                         compare(self, found.data, &still[found.data], &stills[found.data]);
                     }
@@ -272,23 +270,19 @@ impl<'a> Sampler<'a> {
         self.note(run, ours, Other::Panel(other.layers[theirs].panel), moving, depth, at_once);
     }
 
-    fn note(
-        &mut self,
-        run: &Run,
-        layer: usize,
-        other: Other,
-        moving: &[Moving],
-        depth: f64,
-        at_once: bool,
-    ) {
+    fn note(&mut self, run: &Run, layer: usize, other: Other, moving: &[Moving], depth: f64, at_once: bool) {
         let Some(mover) = run.mover.map(|number| moving[number].joint) else { return };
         let (joint, panel) = (self.plates.joint(mover), run.layers[layer].panel);
         let angle_deg = (joint.turn * self.fractions[mover]).to_degrees();
         let hinge = joint.hinge;
-        let meeting = self
-            .meetings
-            .entry((at_once, hinge, panel, other))
-            .or_insert(Meeting { hinge, panel, other, angle_deg, depth, at_once });
+        let meeting = self.meetings.entry((at_once, hinge, panel, other)).or_insert(Meeting {
+            hinge,
+            panel,
+            other,
+            angle_deg,
+            depth,
+            at_once,
+        });
         meeting.depth = meeting.depth.max(depth);
     }
 

@@ -1,12 +1,15 @@
 //! Verdicts of the sampler: on motions that are free, on motions that aren't, and against the prover.
 
-use super::{DenseError, Meeting, Other, Setting, Verdict, verify, verify_with};
-use crate::motion::{self, Ground, Options, Thickness, check, search, waits_for};
+use super::{DenseError, Meeting, Other, Scheduled, Setting, Verdict, verify, verify_with};
+use crate::motion::{self, Effort, Ground, Options, Thickness, check, search, waits_for};
 use crate::order::Order;
+use crate::schedule::Fingerprint;
 use crate::testing::real_plans;
 use crate::tree::Tree;
 use std::path::Path;
 use zygote_stacking::{Bridges, Model, Plan, Request};
+
+const EFFORT: Effort = Effort { other_roots: 6, backward: 0, looks: 0 };
 
 fn setting(plates: Thickness) -> Setting {
     Setting { thickness: plates.thickness, rim: plates.rim, ground: None, step_deg: 2.0, at_once: 3 }
@@ -26,7 +29,7 @@ fn what_is_proved_free_looks_free_one_by_one_and_at_once() {
     let mut free = 0;
     for mut plan in plans {
         let plates = Thickness::ideal(&plan);
-        let found = search(&plan, plates, None, &mut |_, _| ()).expect("plates");
+        let found = search(&plan, plates, None, &EFFORT, &mut |_, _| ()).expect("plates");
         plan.root = found.root;
         let report = check(&plan, &found.hinges, plates, &Options::default()).expect("plates");
         if !report.is_free() {
@@ -95,7 +98,7 @@ fn what_is_seen_to_meet_the_prover_says_too_and_the_other_way_about() {
 fn hinges_let_loose_that_should_wait_are_seen_to_meet() {
     let plan = model_plan("fish92.txt", 2, Bridges::Least);
     let plates = Thickness::ideal(&plan);
-    let found = search(&plan, plates, None, &mut |_, _| ()).expect("plates");
+    let found = search(&plan, plates, None, &EFFORT, &mut |_, _| ()).expect("plates");
     let plan = Plan { root: found.root, ..plan };
     let loose = Order { hinges: found.hinges.clone(), waits_for: vec![Vec::new(); found.hinges.len()] };
     let verdict = verify(&plan, &loose, &Setting { step_deg: 4.0, at_once: 1, ..setting(plates) });
@@ -182,4 +185,35 @@ fn orders_and_numbers_without_sense_are_refused() {
     torn.hinges[3].target_angle_deg = 90 - torn.hinges[3].target_angle_deg;
     let order = Order::of_tree(&Tree::new(&torn).expect("a tree"));
     assert_eq!(verify(&torn, &order, &good).expect_err("torn"), DenseError::Angles { hinge: 3 });
+}
+
+#[test]
+fn a_schedule_s_motion_is_read_with_its_waits_and_its_certificate() {
+    let plan = model_plan("l14.txt", 1, Bridges::Least);
+    let order = Order::of_tree(&Tree::new(&plan).expect("a tree"));
+    let place = |hinge: &usize| order.hinges.iter().position(|other| other == hinge).expect("a place");
+    let steps: Vec<_> = order
+        .hinges
+        .iter()
+        .map(|hinge| {
+            let after: Vec<_> = order.waits_for[*hinge].iter().map(place).collect();
+            serde_json::json!({ "hinge": hinge, "after": after, "channel": 3 })
+        })
+        .collect();
+    let certificate = serde_json::json!({
+        "thickness": 0.05, "rim": 0.01, "ideal": false, "panel_pairs": 4, "box_pairs": 2, "clearance": 0.01
+    });
+    let crc = Fingerprint::of(&plan);
+    let mut file = serde_json::json!({ "plan_crc64": crc, "steps": steps, "certificate": certificate });
+    let read = Scheduled::read(&plan, &file).expect("a schedule");
+    assert_eq!(read.order, order);
+    assert!(read.certificate.is_some_and(|certificate| certificate.rim == 0.01 && certificate.is_free()));
+    file["steps"][4]["after"] = serde_json::json!([99]);
+    let refused = Scheduled::read(&plan, &file).expect_err("step 99");
+    assert_eq!(refused, DenseError::Order { hinge: order.hinges[4] });
+    let other = model_plan("i14.txt", 1, Bridges::Least);
+    let refused = Scheduled::read(&other, &file).expect_err("another plan").to_string();
+    assert!(refused.starts_with(&format!("schedule: made for plan {crc}, this is plan ")), "{refused}");
+    let refused = Scheduled::read(&plan, &serde_json::json!({ "steps": [] })).expect_err("none").to_string();
+    assert_eq!(refused, "schedule: missing field `plan_crc64`");
 }

@@ -38,9 +38,17 @@ pub(super) enum Wanted {
 /// # Errors
 /// The conflict.
 pub fn apart(first: &Body, second: &Body) -> Result<(), Conflict> {
-    Pair { first, second, wanted: Wanted::Least, touching: TOUCHING, finest: FINEST, clearance: None, hint: None }
-        .over_all()
-        .map_or(Ok(()), Err)
+    Pair {
+        first,
+        second,
+        wanted: Wanted::Least,
+        touching: TOUCHING,
+        finest: FINEST,
+        clearance: None,
+        hint: None,
+    }
+    .over_all()
+    .map_or(Ok(()), Err)
 }
 
 /// Two bodies in question.

@@ -2,7 +2,7 @@
 
 use super::dense::{meet, random_plan};
 use super::{below, edges_may_touch, from_the_root, model_plan};
-use crate::motion::{Linkage, MotionError, Options, Thickness, check, search, waits_for};
+use crate::motion::{Effort, Linkage, MotionError, Options, Thickness, check, search, waits_for};
 use crate::order::Order;
 use crate::testing::real_plans;
 use crate::tree::Tree;
@@ -20,7 +20,8 @@ struct Case {
 }
 
 fn case(name: String, mut plan: Plan, plates: Thickness) -> Option<Case> {
-    let found = search(&plan, plates, None, &mut |_, _| ()).expect("plates");
+    let effort = Effort { other_roots: 6, backward: 1, looks: 2_000 };
+    let found = search(&plan, plates, None, &effort, &mut |_, _| ()).expect("plates");
     plan.root = found.root;
     let report = check(&plan, &found.hinges, plates, &Options::default()).expect("plates");
     let order = waits_for(&plan, &found.hinges, plates).expect("an order");
@@ -92,7 +93,8 @@ fn a_hinge_that_moves_another_keeps_its_place_before_or_behind_it() {
         let mut hinges = from_the_root(&plan);
         for _ in 0..2 {
             let order = waits_for(&plan, &hinges, edges_may_touch()).expect("an order");
-            let (before, place) = (all_before(&order), |hinge| hinges.iter().position(|other| *other == hinge));
+            let (before, place) =
+                (all_before(&order), |hinge| hinges.iter().position(|other| *other == hinge));
             let linkage = Linkage::new(&plan, edges_may_touch()).expect("plates");
             for a in 0..hinges.len() {
                 for b in (0..hinges.len()).filter(|b| *b != a && linkage.moves(a, linkage.child(*b))) {
@@ -229,6 +231,9 @@ fn an_order_that_lacks_repeats_or_invents_hinges_is_refused() {
     let hinges = from_the_root(&plan);
     let refused = |hinges: &[usize]| waits_for(&plan, hinges, edges_may_touch()).expect_err("no order");
     assert_eq!(refused(&hinges[1..]), MotionError::Order { hinge: hinges[0], found: 0 });
-    assert_eq!(refused(&[&hinges[..], &hinges[..1]].concat()), MotionError::Order { hinge: hinges[0], found: 2 });
+    assert_eq!(
+        refused(&[&hinges[..], &hinges[..1]].concat()),
+        MotionError::Order { hinge: hinges[0], found: 2 }
+    );
     assert_eq!(refused(&[99]), MotionError::NoHinge { found: 99, hinges: 13 });
 }
