@@ -6,11 +6,13 @@
 //! plan ------> Tree --order--> hinges in order -+
 //! plan ------> Tolerance: how far panels are off, and cut edges gape, when hinges aren't exact
 //! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
+//! plan + order -> dense --> the same seen again by sampling, with code of its own
 //! plan ------> Kinematics --> poses of all panels --> picture (SVG)
 //! ```
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
 
+pub mod dense;
 mod heating;
 mod kinematics;
 pub mod motion;

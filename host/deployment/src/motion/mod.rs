@@ -5,6 +5,7 @@
 //!     -> Motion (what is open, where every panel is) --open a hinge--> blocks that turn, blocks that stand still
 //!     -> near (pairs that could meet) -> apart (extents over angle intervals) -> Collision
 //! check: all steps of an order -> Report
+//! search: a free order, one hinge at a time -> waits_for: which hinges must wait for which, whatever their speeds
 //! ```
 //!
 //! A panel is a plate: its outer face is a unit square, its thickness goes to the inner side. A border (the *rim*) of
@@ -28,6 +29,7 @@ mod state;
 mod tests;
 mod thickness;
 mod turning;
+mod waits;
 
 pub use apart::{Conflict, FINEST, apart};
 pub use certificate::Certificate;
@@ -41,6 +43,7 @@ pub use search::{Effort, Found, Scope, search};
 pub use state::{Ground, Motion};
 pub use thickness::{MotionError, Thickness};
 pub use turning::{Body, Interval, Turn};
+pub use waits::waits_for;
 
 /// So much of overlap, in panel lengths, is rounding, not a collision: far above the error of poses along thousands of
 /// joints, far below any thickness. See also [`Thickness::touching`].
