@@ -65,20 +65,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.plan.display();
     let rig = input::rig(&arguments.rig)?;
     let mut plan = input::plan(&arguments.plan)?;
-    let (order, certificate) = if arguments.unchecked {
-        (Order::of_tree(&Tree::new(&plan).context("no order").or_bad_input()?), None)
-    } else {
-        let (order, certificate) = checked_order(arguments, &plan)?;
-        (order, Some(certificate))
-    };
     let parallel = arguments.parallel.or(arguments.unchecked.then_some(1));
     let limits = Limits { parallel, one_servo_a_node: arguments.one_servo, ..Limits::default() };
-    let mut schedule = Schedule::plan(&plan, &rig, &order, &limits)
-        .with_context(|| format!("{name}: no schedule on this rig"))
-        .or_bad_input()?;
-    if let Some(certificate) = certificate {
-        schedule = schedule.with_certificate(certificate);
-    }
+    let schedule_of = |order: &Order, limits: &Limits| {
+        Schedule::plan(&plan, &rig, order, limits)
+            .with_context(|| format!("{name}: no schedule on this rig"))
+            .or_bad_input()
+    };
+    let by_tree = Order::of_tree(&Tree::new(&plan).context("no order").or_bad_input()?);
+    let schedule = if arguments.unchecked {
+        schedule_of(&by_tree, &limits)?
+    } else {
+        // What the rig can't drive is told before a long search.
+        schedule_of(&by_tree, &Limits { samples: 0, ..limits })?;
+        let (order, certificate) = checked_order(arguments, &plan)?;
+        schedule_of(&order, &limits)?.with_certificate(certificate)
+    };
     schedule.verify(&plan, &rig).context("a fault of this program: its own schedule is wrong").or_failed()?;
     let written = if let Some(output) = &arguments.output {
         write_file(output, schedule.to_text().or_failed()?.as_bytes())?;
@@ -89,7 +91,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         &arguments.plan
     };
     say(format_args!("{}: {}", written.display(), summary(&schedule)));
+    if let Some(certificate) = &schedule.certificate {
+        say(format_args!("motion: {}", told(certificate)));
+    }
     Ok(())
+}
+
+/// What was checked, in one line.
+fn told(certificate: &Certificate) -> String {
+    let Certificate { panel_pairs, clearance, collisions, ideal, .. } = certificate;
+    let panels = if *ideal { "panels without thickness" } else { "panels as thick as the plan's" };
+    if collisions.is_empty() {
+        format!(
+            "free with {panels}: {panel_pairs} pairs proved apart over whole turns, clearance {clearance:.4} panel lengths"
+        )
+    } else {
+        format!("{} collisions with {panels}, allowed", collisions.len())
+    }
 }
 
 /// An order without a collision, with what must wait for what, and what was checked.
@@ -135,14 +153,7 @@ fn checked_order(arguments: &Arguments, plan: &Plan) -> Result<(Order, Certifica
             .with_context(|| format!("{name}: no motion"))
             .or_bad_input()?
     };
-    let certificate = Certificate::of(&report, thickness, plates == Plates::Ideal, ground);
-    say(format_args!(
-        "motion: {}, {} pairs of panels proved apart over every turn, clearance {:.4} panel lengths",
-        if meetings > 0 { "with the collisions above" } else { "free" },
-        certificate.panel_pairs - meetings as u64,
-        certificate.clearance
-    ));
-    Ok((order, certificate))
+    Ok((order, Certificate::of(&report, thickness, plates == Plates::Ideal, ground)))
 }
 
 /// What the search is at, on the error output.
