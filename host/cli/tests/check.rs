@@ -5,8 +5,12 @@ mod scratch;
 use scratch::{Scratch, model};
 
 fn planned(name: &str) -> Scratch {
+    planned_in(name, "2")
+}
+
+fn planned_in(name: &str, piles: &str) -> Scratch {
     let place = Scratch::new(name);
-    let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", "2", "-o", "fish.fold"]);
+    let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", piles, "-o", "fish.fold"]);
     assert_eq!(run.code, 0, "{}", run.errors);
     place
 }
@@ -57,8 +61,8 @@ fn what_is_no_plan_at_all_is_unreadable() {
 }
 
 /// The plan in the folder, with a schedule on a rig that has room for all of it.
-fn scheduled(name: &str) -> Scratch {
-    let place = planned(name);
+fn scheduled(name: &str, piles: &str) -> Scratch {
+    let place = planned_in(name, piles);
     let rig = "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"2 A\"\n\
                resistance = \"50 mohm\"\n[[node]]\nname = \"a\"\nheaters = 128\n";
     place.write("rig.toml", rig);
@@ -69,7 +73,12 @@ fn scheduled(name: &str) -> Scratch {
 
 #[test]
 fn the_motion_of_a_schedule_is_seen_to_be_free_or_its_collisions_are_listed() {
-    let place = scheduled("check_motion");
+    let place = scheduled("check_motion_strip", "1");
+    let thin = ["--thickness", "0.00001", "--rim", "0.01", "--step", "5"];
+    let run = place.zygote(&[&["check", "fish.fold", "--motion"], &thin[..]].concat());
+    assert_eq!(run.code, 0, "{} {}", run.output, run.errors);
+    assert!(run.output.contains("fish.fold: motion: no collision seen, clearance 9."), "{}", run.output);
+    let place = scheduled("check_motion", "2");
     let run = place.zygote(&["check", "fish.fold", "--motion", "--thickness", "0.05", "--step", "5"]);
     assert_eq!(run.code, 1, "{}", run.output);
     assert!(run.output.lines().any(|line| line.starts_with("hinge ") && line.contains(" is in panel ")));
@@ -83,7 +92,7 @@ fn a_motion_without_a_schedule_or_with_numbers_without_sense_cannot_be_looked_at
     let run = place.zygote(&["check", "fish.fold", "--motion"]);
     assert_eq!(run.code, 2, "{}", run.output);
     assert!(run.errors.contains("fish.fold: has no schedule"), "{}", run.errors);
-    let place = scheduled("check_motion_step");
+    let place = scheduled("check_motion_step", "2");
     let run = place.zygote(&["check", "fish.fold", "--motion", "--thickness", "0.05", "--step", "0"]);
     assert_eq!(run.code, 2, "{}", run.output);
     assert!(run.errors.contains("step: expected a finite number of degrees above 0"), "{}", run.errors);
