@@ -37,7 +37,7 @@ class Program:
 def make(zygote: Path, model: Path, rig: Path, folder: Path) -> Program:
     """Plans a model in two piles and schedules it for a rig."""
     plan = folder / "plan.fold"
-    _run(zygote, "plan", model, "--piles", 2, "--output", plan)
+    _run(zygote, "plan", model, "--piles", 2, "--free", "ideal", "--output", plan)
     _run(zygote, "schedule", plan, "--rig", rig, "--parallel", 4)
     return Program(plan, rig, json.loads(plan.read_text())["zygote:schedule"])
 

@@ -15,9 +15,9 @@ pub(crate) fn run() -> Result<()> {
     tools::run(cargo().args(["build", "--package", "zygote-cli"]).current_dir(tools::root()))?;
     let place = |name: &str| demo.join(name).display().to_string();
     let plan = place("fish.fold");
-    zygote(&["plan", MODEL, "--piles", "2", "--output", &plan])?;
-    zygote(&["check", &plan])?;
+    zygote(&["plan", MODEL, "--piles", "4", "--free", "ideal", "--output", &plan])?;
     zygote(&["schedule", &plan, "--rig", RIG])?;
+    zygote(&["check", &plan, "--motion"])?;
     zygote(&["deploy", &plan, "--rig", RIG, "--sim"])?;
     for (view, name) in [("both", "fish.svg"), ("film", "film.svg"), ("animation", "unfold.svg")] {
         zygote(&["picture", &plan, "--view", view, "--output", &place(name)])?;

@@ -10,7 +10,16 @@ const RIG: &str = "rigs/sma-160.toml";
 
 /// Plans, schedules and deploys a model; every step must succeed but the last.
 fn deploy(place: &Scratch, name: &str, piles: usize, rig: &str, parallel: usize) -> Run {
-    let run = place.zygote(&["plan", &model(name), "--piles", &piles.to_string(), "-o", "plan.fold"]);
+    let run = place.zygote(&[
+        "plan",
+        &model(name),
+        "--piles",
+        &piles.to_string(),
+        "--bridges",
+        "base",
+        "-o",
+        "plan.fold",
+    ]);
     assert_eq!(run.code, 0, "{name} in {piles} piles: {}", run.errors);
     let run = place.zygote(&["schedule", "plan.fold", "--rig", rig, "--parallel", &parallel.to_string()]);
     assert_eq!(run.code, 0, "{name} in {piles} piles: {}", run.errors);

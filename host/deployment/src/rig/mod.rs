@@ -102,6 +102,8 @@ impl Node {
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
     hinge: usize,
+    /// Name of its node.
+    node: Option<String>,
     channel: Option<u16>,
     drive: Drive,
 }
@@ -153,7 +155,7 @@ impl Rig {
                         Drive::Spring(SpringSettings::resolve(entry.spring.as_ref(), &file.spring))
                     }
                 };
-                Entry { hinge: entry.hinge, channel: entry.channel, drive }
+                Entry { hinge: entry.hinge, node: entry.node.clone(), channel: entry.channel, drive }
             })
             .collect();
         Self {
