@@ -5,8 +5,12 @@ mod scratch;
 use scratch::{Scratch, model};
 
 fn planned(name: &str) -> Scratch {
+    planned_in(name, "2")
+}
+
+fn planned_in(name: &str, piles: &str) -> Scratch {
     let place = Scratch::new(name);
-    let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", "2", "-o", "fish.fold"]);
+    let run = place.zygote(&["plan", &model("fish92.txt"), "--piles", piles, "-o", "fish.fold"]);
     assert_eq!(run.code, 0, "{}", run.errors);
     place
 }
@@ -56,37 +60,55 @@ fn what_is_no_plan_at_all_is_unreadable() {
     }
 }
 
-/// The plan in the folder, with a schedule on a rig that has room for all of it.
-fn scheduled(name: &str) -> Scratch {
-    let place = planned(name);
+/// A single strip in the folder, with a schedule on a rig that has room for all of it.
+fn scheduled(name: &str, how: &[&str]) -> Scratch {
+    let place = planned_in(name, "1");
     let rig = "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"2 A\"\n\
                resistance = \"50 mohm\"\n[[node]]\nname = \"a\"\nheaters = 128\n";
     place.write("rig.toml", rig);
-    let run = place.zygote(&["schedule", "fish.fold", "--rig", "rig.toml"]);
+    let run = place.zygote(&[&["schedule", "fish.fold", "--rig", "rig.toml"], how].concat());
     assert_eq!(run.code, 0, "{}", run.errors);
     place
 }
 
 #[test]
-fn the_motion_of_a_schedule_is_seen_to_be_free_or_its_collisions_are_listed() {
-    let place = scheduled("check_motion");
+fn a_motion_that_was_proved_free_is_seen_to_be_with_the_plates_of_its_certificate() {
+    let place = scheduled("check_motion", &[]);
+    let run = place.zygote(&["check", "fish.fold", "--motion", "--step", "5"]);
+    assert_eq!(run.code, 0, "{} {}", run.output, run.errors);
+    assert!(run.output.contains("fish.fold: motion: no collision seen, clearance 9."), "{}", run.output);
+    assert!(run.output.contains("samples of 5 degrees or less, one by one and 2 times at once"));
+    let beside = scheduled("check_motion_beside", &["-o", "schedule.json"]);
+    let check = ["check", "fish.fold", "--motion", "--step", "5", "--schedule", "schedule.json"];
+    assert_eq!(beside.zygote(&check).output, run.output);
+}
+
+#[test]
+fn plates_too_thick_for_a_motion_are_listed_with_hinge_and_angle() {
+    let place = scheduled("check_motion_thick", &[]);
     let run = place.zygote(&["check", "fish.fold", "--motion", "--thickness", "0.05", "--step", "5"]);
     assert_eq!(run.code, 1, "{}", run.output);
     assert!(run.output.lines().any(|line| line.starts_with("hinge ") && line.contains(" is in panel ")));
+    assert!(run.output.lines().last().unwrap().starts_with("... and "), "{}", run.output);
     assert!(run.errors.contains("collisions seen in its motion"), "{}", run.errors);
-    assert!(run.errors.contains("samples of 5 degrees or less"), "{}", run.errors);
 }
 
 #[test]
 fn a_motion_without_a_schedule_or_with_numbers_without_sense_cannot_be_looked_at() {
     let place = planned("check_motionless");
-    let run = place.zygote(&["check", "fish.fold", "--motion"]);
-    assert_eq!(run.code, 2, "{}", run.output);
-    assert!(run.errors.contains("fish.fold: has no schedule"), "{}", run.errors);
-    let place = scheduled("check_motion_step");
-    let run = place.zygote(&["check", "fish.fold", "--motion", "--thickness", "0.05", "--step", "0"]);
-    assert_eq!(run.code, 2, "{}", run.output);
-    assert!(run.errors.contains("step: expected a finite number of degrees above 0"), "{}", run.errors);
-    let run = place.zygote(&["check", "fish.fold", "--step", "2"]);
-    assert_eq!(run.code, 2, "{}", run.output);
+    let unscheduled = place.zygote(&["check", "fish.fold", "--motion"]);
+    let place = scheduled("check_motion_step", &["--unchecked"]);
+    let check = |extra: &[&str]| place.zygote(&[&["check", "fish.fold"], extra].concat());
+    for (run, told) in [
+        (unscheduled, "fish.fold: has no schedule"),
+        (check(&["--motion"]), "has no certificate"),
+        (
+            check(&["--motion", "--thickness", "0.05", "--step", "0"]),
+            "finite number of degrees above 0, found 0",
+        ),
+        (check(&["--step", "2"]), "--motion"),
+    ] {
+        assert_eq!(run.code, 2, "{}", run.output);
+        assert!(run.errors.contains(told), "{}", run.errors);
+    }
 }
