@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ortools.sat.python import cp_model
 
-TIMEOUT_S = 60
+TIMEOUT_S = 30
 
 
 def shortest(problem):

@@ -60,10 +60,8 @@ fn cube() -> Model {
 fn problem(name: &str, schedule: &Schedule, order: &Order) -> serde_json::Value {
     let mut steps: Vec<_> = schedule.steps.iter().collect();
     steps.sort_by_key(|step| step.hinge);
-    let tasks: Vec<_> = steps
-        .iter()
-        .map(|step| json!([step.duration.0, step.current.0, step.hold_current.0]))
-        .collect();
+    let tasks: Vec<_> =
+        steps.iter().map(|step| json!([step.duration.0, step.current.0, step.hold_current.0])).collect();
     json!({
         "name": name,
         "limit": schedule.supply_limit.0,
@@ -106,7 +104,9 @@ fn main() {
     if names.is_empty() {
         names = ["i14", "l14", "fish92", "vehicle92", "airplane92"].map(String::from).into();
     }
-    println!("| model | K | hinges | supply for | makespan | lower bound | ratio | took, ms |\n|---|---|---|---|---|---|---|---|");
+    println!(
+        "| model | K | hinges | supply for | makespan | lower bound | ratio | took, ms |\n|---|---|---|---|---|---|---|---|"
+    );
     for name in &names {
         let own = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../models/{name}.txt"));
         let model = if name == "large" { cube() } else { Model::read(&own, None).unwrap() };
