@@ -10,19 +10,31 @@ use std::time::Instant;
 use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
 use zygote_stacking::{Bridges, Model, Plan, Request, Surface, plan};
 
-/// What one hinge draws, and what it holds, in mA: the defaults of a rig file on 5 V.
-const KINDS: [(&str, u64, u64); 2] = [("sma", 200, 0), ("servo", 250, 10)];
+/// What one hinge draws, and what it holds, in mA: the defaults of a rig file on 5 V, and servos that hold nothing.
+const KINDS: [Hinges; 3] = [
+    Hinges { title: "sma", kind: "sma", current: 200, hold: 0 },
+    Hinges { title: "servo", kind: "servo", current: 250, hold: 0 },
+    Hinges { title: "servo, holding", kind: "servo", current: 250, hold: 10 },
+];
 const AT_ONCE: [u64; 3] = [1, 4, 16];
 /// Panels along the edge of the large cube.
 const EDGE: i32 = 129;
 
+/// How all hinges are driven.
+struct Hinges {
+    title: &'static str,
+    kind: &'static str,
+    current: u64,
+    hold: u64,
+}
+
 /// A rig with channels for all hinges, in as many nodes as that takes, and current for so many at once beside what is held.
-fn rig(kind: (&str, u64, u64), hinges: usize, at_once: u64) -> Rig {
-    let (name, current, hold) = kind;
+fn rig(driven: &Hinges, hinges: usize, at_once: u64) -> Rig {
+    let Hinges { kind, current, hold, .. } = driven;
     let limit = at_once * current + hold * hinges as u64;
     let mut text = format!(
         "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\nresistance = \"0 ohm\"\n\
-         [hinges]\ndefault = \"{name}\"\n"
+         [hinges]\ndefault = \"{kind}\"\n[servo]\nhold_current = \"{hold} mA\"\n"
     );
     let nodes = hinges.div_ceil(60_000);
     for node in 0..nodes {
@@ -73,9 +85,9 @@ fn problem(name: &str, schedule: &Schedule, order: &Order) -> serde_json::Value 
 }
 
 fn row(name: &str, piles: usize, plan: &Plan, folder: &str) {
-    for kind in KINDS {
+    for driven in KINDS {
         for at_once in AT_ONCE {
-            let rig = rig(kind, plan.hinges.len(), at_once);
+            let rig = rig(&driven, plan.hinges.len(), at_once);
             let begin = Instant::now();
             let order = Order::of_tree(&Tree::new(plan).unwrap());
             let schedule = Schedule::plan(plan, &rig, &order, &Limits::default()).unwrap();
@@ -83,14 +95,15 @@ fn row(name: &str, piles: usize, plan: &Plan, folder: &str) {
             schedule.verify(plan, &rig).unwrap();
             println!(
                 "| {name} | {piles} | {} | {at_once} | {} | {} | {:.3} | {took:.1} |",
-                kind.0,
+                driven.title,
                 schedule.makespan,
                 schedule.lower_bound,
                 schedule.ratio(),
             );
             if folder != "-" {
-                let file = Path::new(folder).join(format!("{name}-{piles}-{}-{at_once}.json", kind.0));
-                let title = format!("{name}, K = {piles}, {}, {at_once} at once", kind.0);
+                let file = Path::new(folder)
+                    .join(format!("{name}-{piles}-{}-{at_once}.json", driven.title.replace(", ", "-")));
+                let title = format!("{name}, K = {piles}, {}, {at_once} at once", driven.title);
                 std::fs::write(file, problem(&title, &schedule, &order).to_string()).unwrap();
             }
         }
