@@ -162,3 +162,21 @@ fn nobody_at_the_other_end_is_told_by_name_after_the_time_given() {
     let error = Session::connect(dead, 9, Millis(2_000)).err().unwrap();
     assert!(matches!(error, ConnectError::NoAnswer { waited_ms: 2_000, heard: 0, .. }), "{error}");
 }
+
+#[test]
+fn a_schedule_on_several_nodes_is_refused_before_anything_is_sent() {
+    let (rig, schedule) = job();
+    let text = std::fs::read_to_string(repository().join("models/rigs/mixed.toml")).unwrap();
+    let second = "[[node]]\nname = \"second\"\nservos = 16\n\n[hinges]";
+    let text = text.replace("servos = 16", "servos = 4").replacen("[hinges]", second, 1);
+    let model = Model::read(&repository().join("models/i14.txt"), None).unwrap();
+    let plan = zygote_stacking::plan(&model, &Request { piles: 2, ..Request::default() }).unwrap();
+    let two_nodes = Rig::read("two.toml", &text).unwrap();
+    let order = Order::of_tree(&Tree::new(&plan).unwrap());
+    let split = Schedule::plan(&plan, &two_nodes, &order, &Limits::at_most(1)).unwrap();
+    assert!(!split.crossings().is_empty());
+    let (refused, line) = run(line(&rig, &schedule, CLEAN, NEVER), &two_nodes, &split, |_| false);
+    let said = refused.unwrap_err().to_string();
+    assert!(said.contains("the schedule is for 2 nodes (numbers [0, 1] of the rig file)"), "{said}");
+    assert_eq!(line.sim.board().core().state(), State::Idle);
+}

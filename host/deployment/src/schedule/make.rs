@@ -28,7 +28,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { parallel: None, one_servo_a_node: false, samples: 500 }
+        Self { parallel: None, one_servo_a_node: false, samples: 1000 }
     }
 }
 

@@ -116,7 +116,8 @@ impl Best<'_> {
         }
     }
 
-    /// Lists at random: by turns around the longest way to go, and around the best so far.
+    /// Lists at random: by turns around the longest way to go, with more or less favour for long motions, which had best run
+    /// before much is held; and around the best so far.
     fn sample(&mut self, samples: usize) {
         let mut random = Random(SEED);
         let way: Vec<u64> = self
@@ -127,6 +128,7 @@ impl Best<'_> {
             .map(|(task, tail)| task.duration + tail)
             .collect();
         let longest = way.iter().copied().max().unwrap_or(0);
+        let longest_motion = self.problem.tasks.iter().map(|task| task.duration).max().unwrap_or(0);
         for sample in 0..samples {
             let keys: Vec<u64> = match &self.best {
                 Some((makespan, starts)) if sample % 2 == 1 => {
@@ -136,7 +138,11 @@ impl Best<'_> {
                 }
                 _ => {
                     let reach = 1 + longest / (1 + sample as u64 / 2 % 4);
-                    way.iter().map(|way| longest - way + random.below(reach)).collect()
+                    let favour = [0, 1, 4, 16][sample / 8 % 4];
+                    let late = |task: usize| {
+                        longest - way[task] + favour * (longest_motion - self.problem.tasks[task].duration)
+                    };
+                    (0..self.problem.len()).map(|task| late(task) + random.below(reach)).collect()
                 }
             };
             self.list(&keys);

@@ -1,0 +1,134 @@
+//! How short schedules are, as a Markdown table: models in 1, 2 and 4 piles, opened in the order of the tree, on heaters and on
+//! servos, with a supply for 1, 4 and 16 hinges at once. Arguments: a folder for the problems as JSON, for other
+//! programs, or `-`; then names of models, or `large` for a cube of some 100,000 panels.
+#![expect(clippy::print_stdout, reason = "its output is what it is for")]
+#![expect(clippy::unwrap_used, reason = "a tool for developers, as tests are")]
+
+use serde_json::json;
+use std::path::Path;
+use std::time::Instant;
+use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
+use zygote_stacking::{Bridges, Model, Plan, Request, Surface, plan};
+
+/// What one hinge draws, and what it holds, in mA: the defaults of a rig file on 5 V, and servos that hold nothing.
+const KINDS: [Hinges; 3] = [
+    Hinges { title: "sma", kind: "sma", current: 200, hold: 0 },
+    Hinges { title: "servo", kind: "servo", current: 250, hold: 0 },
+    Hinges { title: "servo, holding", kind: "servo", current: 250, hold: 10 },
+];
+const AT_ONCE: [u64; 3] = [1, 4, 16];
+/// Panels along the edge of the large cube.
+const EDGE: i32 = 129;
+
+/// How all hinges are driven.
+struct Hinges {
+    title: &'static str,
+    kind: &'static str,
+    current: u64,
+    hold: u64,
+}
+
+/// A rig with channels for all hinges, in as many nodes as that takes, and current for so many at once beside what is held.
+fn rig(driven: &Hinges, hinges: usize, at_once: u64) -> Rig {
+    let Hinges { kind, current, hold, .. } = driven;
+    let limit = at_once * current + hold * hinges as u64;
+    let mut text = format!(
+        "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\nresistance = \"0 ohm\"\n\
+         [hinges]\ndefault = \"{kind}\"\n[servo]\nhold_current = \"{hold} mA\"\n"
+    );
+    let nodes = hinges.div_ceil(60_000);
+    for node in 0..nodes {
+        let channels = hinges.div_ceil(nodes);
+        text += &format!("[[node]]\nname = \"{node}\"\nheaters = {channels}\nservos = {channels}\n");
+    }
+    Rig::read("rig.toml", &text).unwrap()
+}
+
+/// The surface of a cube.
+fn cube() -> Model {
+    let mut quads = Vec::new();
+    for axis in 0..3 {
+        for (side, u, v) in
+            (0..2).flat_map(|side| (0..EDGE).flat_map(move |u| (0..EDGE).map(move |v| (side, u, v))))
+        {
+            let corner = |du: i32, dv: i32| {
+                let mut corner = [side * EDGE; 3];
+                corner[(axis + 1) % 3] = u + du;
+                corner[(axis + 2) % 3] = v + dv;
+                corner
+            };
+            let mut quad = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            if side == 0 {
+                quad.reverse();
+            }
+            quads.push(quad);
+        }
+    }
+    let lines = (1..=quads.len()).collect();
+    Model::new("cube", Surface::new(quads, lines).unwrap()).unwrap()
+}
+
+/// The problem and what was found, for other programs.
+fn problem(name: &str, schedule: &Schedule, order: &Order) -> serde_json::Value {
+    let mut steps: Vec<_> = schedule.steps.iter().collect();
+    steps.sort_by_key(|step| step.hinge);
+    let tasks: Vec<_> =
+        steps.iter().map(|step| json!([step.duration.0, step.current.0, step.hold_current.0])).collect();
+    json!({
+        "name": name,
+        "limit": schedule.supply_limit.0,
+        "tasks": tasks,
+        "waits_for": order.waits_for,
+        "makespan": schedule.makespan.0,
+        "lower_bound": schedule.lower_bound.0,
+    })
+}
+
+fn row(name: &str, piles: usize, plan: &Plan, folder: &str) {
+    for driven in KINDS {
+        for at_once in AT_ONCE {
+            let rig = rig(&driven, plan.hinges.len(), at_once);
+            let begin = Instant::now();
+            let order = Order::of_tree(&Tree::new(plan).unwrap());
+            let schedule = Schedule::plan(plan, &rig, &order, &Limits::default()).unwrap();
+            let took = begin.elapsed().as_secs_f64() * 1e3;
+            schedule.verify(plan, &rig).unwrap();
+            println!(
+                "| {name} | {piles} | {} | {at_once} | {} | {} | {:.3} | {took:.1} |",
+                driven.title,
+                schedule.makespan,
+                schedule.lower_bound,
+                schedule.ratio(),
+            );
+            if folder != "-" {
+                let file = Path::new(folder)
+                    .join(format!("{name}-{piles}-{}-{at_once}.json", driven.title.replace(", ", "-")));
+                let title = format!("{name}, K = {piles}, {}, {at_once} at once", driven.title);
+                std::fs::write(file, problem(&title, &schedule, &order).to_string()).unwrap();
+            }
+        }
+    }
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let folder = arguments.next().unwrap_or_else(|| "-".to_owned());
+    let mut names: Vec<_> = arguments.collect();
+    if names.is_empty() {
+        names = ["i14", "l14", "fish92", "vehicle92", "airplane92"].map(String::from).into();
+    }
+    println!(
+        "| model | K | hinges | supply for | makespan | lower bound | ratio | took, ms |\n|---|---|---|---|---|---|---|---|"
+    );
+    for name in &names {
+        let own = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../models/{name}.txt"));
+        let model = if name == "large" { cube() } else { Model::read(&own, None).unwrap() };
+        for piles in [1, 2, 4] {
+            if !model.surface().len().is_multiple_of(piles) {
+                continue;
+            }
+            let request = Request { piles, bridges: Bridges::Least, ..Request::default() };
+            row(name, piles, &plan(&model, &request).unwrap(), &folder);
+        }
+    }
+}
