@@ -1,6 +1,7 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
 mod alternatives;
+mod assembly;
 mod check;
 mod deploy;
 mod failure;
@@ -19,7 +20,9 @@ mod schedule;
 mod sequence;
 mod sim;
 mod sim_rig;
+mod table;
 mod tolerance;
+mod torque;
 mod verb;
 
 use clap::Parser;

@@ -6,6 +6,7 @@
 //! plan ------> Tree --order--> hinges in order -+
 //! plan ------> Tolerance: how far panels are off, and cut edges gape, when hinges aren't exact
 //! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
+//! plan + rig + order -> statics --> torque on every hinge against its rating, tipping of the whole
 //! plan ------> Kinematics --> poses of all panels --> picture (SVG)
 //! ```
 //!
@@ -18,6 +19,8 @@ mod order;
 pub mod picture;
 mod rig;
 mod schedule;
+pub mod statics;
+pub mod table;
 #[cfg(test)]
 mod testing;
 mod tolerance;

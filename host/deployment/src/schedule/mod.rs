@@ -11,6 +11,7 @@ mod verify;
 
 pub use fingerprint::Fingerprint;
 pub use list::SchedulingError;
+pub(crate) use motion::start_opening_deg;
 pub use motion::{Motion, ServoMotion, SmaMotion, SpringMotion};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
