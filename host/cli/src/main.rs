@@ -5,6 +5,7 @@ mod assembly;
 mod check;
 mod deploy;
 mod failure;
+mod fold_back;
 mod identity;
 mod input;
 mod interrupt;

@@ -132,3 +132,25 @@ fn people_read_every_hinge_once_in_the_order_of_the_tree_or_of_the_schedule() {
     assert_eq!(hinges(&by_hand, 1), hinges(&steps, 1));
     assert!(place.zygote(&["assembly", "plan.fold"]).output.contains("in the order of its schedule"));
 }
+
+#[test]
+fn servos_fold_a_shape_up_again_and_other_hinges_are_refused_by_name() {
+    let place = planned("fold_back", "1 g");
+    let servos = RIG.replace("heaters = 16", "servos = 16") + "[hinges]\ndefault = \"servo\"\n";
+    place.write("servos.toml", &servos);
+    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "servos.toml", "-o", "there.json"]).code, 0);
+    let fold = |rig: &str, there: &str| {
+        place.zygote(&["fold", "plan.fold", "--rig", rig, "--schedule", there, "-o", "back.json"])
+    };
+    let run = fold("servos.toml", "there.json");
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let json = |name: &str| -> serde_json::Value { serde_json::from_str(&place.read(name)).unwrap() };
+    let (there, back) = (json("there.json"), json("back.json"));
+    assert_eq!(there["steps"][0]["hinge"], back["steps"][12]["hinge"]);
+    assert_eq!(there["steps"][0]["motion"]["from_us"], back["steps"][12]["motion"]["to_us"]);
+    assert_eq!(back["steps"][1]["after"], serde_json::json!([0]));
+    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "-o", "sma.json"]).code, 0);
+    let run = fold("rig.toml", "sma.json");
+    assert_eq!(run.code, 2, "{}", run.output);
+    assert!(run.errors.contains("is a sma hinge, which doesn't close by itself"), "{}", run.errors);
+}

@@ -6,6 +6,7 @@
 mod fingerprint;
 mod list;
 mod motion;
+mod reversed;
 mod units;
 mod verify;
 
@@ -13,6 +14,7 @@ pub use fingerprint::Fingerprint;
 pub use list::SchedulingError;
 pub(crate) use motion::start_opening_deg;
 pub use motion::{Motion, ServoMotion, SmaMotion, SpringMotion};
+pub use reversed::ReverseError;
 pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
 

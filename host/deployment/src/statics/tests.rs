@@ -42,19 +42,22 @@ fn near(found: f64, expected: f64) {
 }
 
 #[test]
-fn a_cantilever_of_three_panels_is_held_with_four_and_a_half_panel_lengths_of_weight() {
+fn the_first_hinge_of_a_cantilever_holds_most_when_the_last_panel_is_level() {
     let (plan, rig) = row();
     let order = outwards(&plan);
     let statics = Statics::of(&plan, &rig, &order, Support::Root).expect("loads");
     let first = statics.holding[0];
-    // Arms of 1/2, 3/2 and 5/2.
-    near(first.torque.0.abs(), 4.5 * 0.1 * NEWTONS);
+    // Arms of 1/2 and 3/2, and of 2 to the last hinge, whose panel is half a thickness beside its axis.
+    let arms = 0.5 + 1.5 + 2.0 + 0.5_f64.hypot(0.025);
+    near(first.torque.0.abs(), arms * 0.1 * NEWTONS);
     assert_eq!((first.hinge, first.step, first.role), (order[0], 2, Role::Holding));
-    near(first.factor(), 4.5 * 0.1 * NEWTONS / 0.034);
+    near(first.factor(), arms * 0.1 * NEWTONS / 0.034);
+    // The second one holds two panels: 1/2 and 1 to the last hinge.
+    near(statics.holding[1].torque.0.abs(), (arms - 2.5) * 0.1 * NEWTONS);
     assert!(first.torque.0 < 0.0, "flat, gravity opens it further");
     // The last hinge holds one panel, as it did at the end of its turn.
     near(statics.holding[2].torque.0.abs(), 0.5 * 0.1 * NEWTONS);
-    assert_eq!(statics.overloads().iter().map(|load| load.hinge).collect::<Vec<_>>(), [order[0], order[0]]);
+    assert_eq!(statics.overloads().iter().map(|load| load.hinge).collect::<Vec<_>>(), [order[0]]);
 }
 
 #[test]
@@ -92,7 +95,7 @@ fn what_leaves_the_ground_altogether_stands_on_nothing() {
     turned.gravity.direction[2] *= -1.0;
     // The root is on top now, and the first hinge takes all others away.
     let tipping = Statics::of(&plan, &turned, &outwards(&plan), Support::Touching).expect("margins").tipping;
-    assert_eq!((tipping.margins[0], tipping.first(), tipping.least().is_some()), (None, Some(0), true));
+    assert_eq!((&tipping.margins[..], tipping.first()), (&[None; 3][..], Some(0)));
 }
 
 #[test]
