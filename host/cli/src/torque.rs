@@ -160,7 +160,7 @@ fn tipping(statics: &Statics) -> String {
                 -margin.0
             ),
             None => format!(
-                "from step {step} on (hinge {}) nothing is left to stand on: --support root",
+                "in step {step} (hinge {}) nothing that stands still touches the ground; for a stand under the root: --support root",
                 hinge(step)
             ),
         },

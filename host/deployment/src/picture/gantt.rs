@@ -8,7 +8,7 @@ use crate::schedule::{Schedule, Step, VerifyError};
 use crate::table::{belongs, kind_name};
 use glam::DVec2;
 use std::collections::BTreeMap;
-use std::fmt::Display;
+use std::fmt::{Display, Write as _};
 use zygote_stacking::Plan;
 
 /// More hinges than this share rows.
@@ -143,7 +143,7 @@ impl Chart {
             "{} hinges on rig {} in {}, at most {} at once",
             schedule.steps.len(),
             schedule.rig,
-            clock(self.end, 1.0),
+            clock(self.end, if self.end < 60.0 { 0.1 } else { 1.0 }),
             schedule.parallel
         );
         self.text("note start", left + DVec2::new(0.0, 22.0), figures);
@@ -152,10 +152,11 @@ impl Chart {
             let count = schedule.steps.iter().filter(|step| step.motion.kind() == kind).count();
             if count > 0 {
                 let label = format!("{count} {}", kind.name());
-                self.text("note end", DVec2::new(right, left.y + 22.0), &label);
-                right -= 8.0 * label.len() as f64 + 14.0;
-                self.rect(kind.name(), DVec2::new(right - 6.0, left.y + 11.0), DVec2::splat(12.0), 3.0);
-                right -= 26.0;
+                right -= 7.5 * label.len() as f64;
+                self.text("note start", DVec2::new(right, left.y + 22.0), &label);
+                right -= 18.0;
+                self.rect(kind.name(), DVec2::new(right, left.y + 11.0), DVec2::splat(12.0), 3.0);
+                right -= 18.0;
             }
         }
     }
@@ -174,11 +175,16 @@ impl Chart {
             let inset = height * 0.14;
             let size = DVec2::new(width, height - 2.0 * inset);
             self.rect(step.motion.kind().name(), DVec2::new(from, top + inset), size, 2.0);
-            if angles {
-                let turn = format!("{}° to {}°", step.from_opening_deg, step.opening_deg);
+            let beside = match (angles, step.from_opening_deg, step.opening_deg) {
+                // Far from its label, a bar is told by its number.
+                (false, ..) => step.hinge.to_string(),
+                (true, from, to) if from == to => format!("stays at {to}°"),
+                (true, from, to) => format!("{from}° to {to}°"),
+            };
+            if row.steps.len() == 1 {
                 let has_room = to + 80.0 < left + PLOT;
                 let (class, x) = if has_room { ("small start", to + 5.0) } else { ("small end", from - 5.0) };
-                self.text(class, DVec2::new(x, base), turn);
+                self.text(class, DVec2::new(x, base), beside);
             }
         }
     }
@@ -219,9 +225,9 @@ impl Chart {
         for (time, _, change) in changes {
             drawn += change;
             let x = self.x(seconds(time));
-            path += &format!("H{}V{}", Document::units(x), Document::units(y(drawn as f64)));
+            let _infallible = write!(path, "H{}V{}", Document::units(x), Document::units(y(drawn as f64)));
         }
-        path += &format!("H{}V{}z", Document::units(right), Document::units(low));
+        let _infallible = write!(path, "H{}V{}z", Document::units(right), Document::units(low));
         self.document.raw(format_args!("<path class=\"draw\" d=\"{path}\"/>\n"));
         self.line("line", DVec2::new(left, low), DVec2::new(right, low));
         self.line("limit", DVec2::new(left, y(limit)), DVec2::new(right, y(limit)));
@@ -229,8 +235,9 @@ impl Chart {
         let at = |height: f64| DVec2::new(left - 8.0, height + 5.0);
         self.text("note end warn", at(y(limit)), format!("limit {}", amps(limit)));
         let peak = schedule.peak_current.0 as f64;
-        // Not into the limit's line of text.
-        self.text("note end", at(y(peak).max(y(limit) + 17.0)), format!("peak {}", amps(peak)));
+        // Not into the lines of text for the limit and for 0.
+        let beside = y(peak).clamp(y(limit) + 17.0, low - 22.0);
+        self.text("note end", at(beside), format!("peak {}", amps(peak)));
         self.text("note end", at(low - 5.0), "0 A");
     }
 }
