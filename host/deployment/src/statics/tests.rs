@@ -172,10 +172,9 @@ fn no_sampled_sum_over_all_panels_is_beyond_the_loads_and_each_load_is_reached()
         for order in [tree, inwards, mixed] {
             let statics = Statics::of(&plan, &rig, &order, Support::Root).expect("loads");
             let at = |load: &Load| {
-                let fractions =
-                    (0..=1).map(f64::from).map(|end| f64::from(plan.hinges[load.turning].opening_deg) * end);
-                let start = f64::from(crate::schedule::start_opening_deg(&plan.hinges[load.turning]));
-                let end = fractions.last().expect("two ends");
+                let hinge = &plan.hinges[load.turning];
+                let [start, end] =
+                    [crate::schedule::start_opening_deg(hinge), hinge.opening_deg].map(f64::from);
                 let fraction = (load.opening.0 - start) / (end - start);
                 let fractions = state(&plan, &order[..load.step], load.turning, fraction);
                 brute(&linkage, &plan, &rig, &fractions, load.hinge)
