@@ -37,6 +37,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .reversed()
         .with_context(|| format!("{}: can't be folded up again", arguments.plan.display()))
         .or_bad_input()?;
+    back.verify_reversed(&plan, &rig)
+        .context("a fault of this program: its own way back is wrong")
+        .or_failed()?;
     write_file(&arguments.output, back.to_text().or_failed()?.as_bytes())?;
     say(format_args!(
         "{}: {} steps back on rig {} in {}, drawing at most {} of {}",

@@ -9,7 +9,7 @@ use zygote_controller::{
     ConnectError, DeployError, Deployment, EventLog, HingeOutcome, Outcome, RunReport, Session, Transport,
     deploy,
 };
-use zygote_deployment::{Rig, Schedule};
+use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
 use zygote_protocol::{Micros, Millis, State};
 use zygote_stacking::{Model, Request};
 
@@ -76,7 +76,8 @@ fn job() -> (Rig, Schedule) {
     let plan = zygote_stacking::plan(&model, &request).unwrap();
     let text = std::fs::read_to_string(repository().join("models/rigs/mixed.toml")).unwrap();
     let rig = Rig::read("mixed.toml", &text).unwrap();
-    let schedule = Schedule::plan(&plan, &rig, 1).unwrap();
+    let order = Order::of_tree(&Tree::new(&plan).unwrap());
+    let schedule = Schedule::plan(&plan, &rig, &order, &Limits::at_most(1)).unwrap();
     (rig, schedule)
 }
 

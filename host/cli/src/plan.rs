@@ -6,6 +6,7 @@ use crate::plan_choice;
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use zygote_deployment::motion::Plates;
 use zygote_stacking::{
     Bridges, Figures, Model, Partition, Plan, PlanError, Quality, Report, Request, Resolution, fold, quality,
 };
@@ -40,9 +41,9 @@ pub(crate) struct Arguments {
     /// How the piles are made
     #[arg(long, value_enum, default_value_t = PartitionArgument::Auto)]
     partition: PartitionArgument,
-    /// How many bridges join the piles
-    #[arg(long, value_enum, default_value_t = BridgesArgument::Most)]
-    bridges: BridgesArgument,
+    /// How many bridges join the piles [default: most, or with --free base]
+    #[arg(long, value_enum)]
+    bridges: Option<BridgesArgument>,
     /// Cells in x and in y that the piles must find room on [default: as few cells as can be]
     #[arg(long, value_name = "WxH", value_parser = grid)]
     grid: Option<[usize; 2]>,
@@ -55,6 +56,37 @@ pub(crate) struct Arguments {
     /// Look for a plan that moves few hinges of this one; as many panels and piles, on cells that lie alike
     #[arg(long, value_name = "A.fold", conflicts_with = "net")]
     like: Option<PathBuf>,
+    /// Look for a plan that opens without a collision, with seeds from --seed on
+    #[arg(long, value_name = "PANELS", value_enum, conflicts_with_all = ["net", "like"])]
+    free: Option<PlatesArgument>,
+    /// With --free, try at most so many plans
+    #[arg(long, value_name = "N", default_value_t = 40, requires = "free", value_parser = clap::value_parser!(u64).range(1..))]
+    tries: u64,
+}
+
+/// What a motion is checked with.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum PlatesArgument {
+    /// Panels without thickness
+    Ideal,
+    /// Panels as thick as the plan says; their edges may touch
+    Thick,
+}
+
+impl From<PlatesArgument> for Plates {
+    fn from(argument: PlatesArgument) -> Self {
+        match argument {
+            PlatesArgument::Ideal => Self::Ideal,
+            PlatesArgument::Thick => Self::Thick,
+        }
+    }
+}
+
+impl Arguments {
+    fn bridges(&self) -> BridgesArgument {
+        let default = if self.free.is_some() { BridgesArgument::Base } else { BridgesArgument::Most };
+        self.bridges.unwrap_or(default)
+    }
 }
 
 /// `--partition`.
@@ -111,7 +143,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             PartitionArgument::Arcs => Partition::Arcs,
             PartitionArgument::Auto => Partition::Auto,
         },
-        bridges: match arguments.bridges {
+        bridges: match arguments.bridges() {
             BridgesArgument::Least => Bridges::Least,
             BridgesArgument::Most => Bridges::Most,
             BridgesArgument::Base => Bridges::Base,
@@ -121,6 +153,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (plan, told) = match like {
         Some(like) => like.plan(&arguments.model, &model, &request)?,
         None if arguments.net => plan_choice::with_net(&arguments.model, &model, &request)?,
+        None if arguments.free.is_some() => {
+            let plates = arguments.free.map_or(Plates::Ideal, Plates::from);
+            plan_choice::that_opens_freely(&arguments.model, &model, &request, plates, arguments.tries)?
+        }
         None => (zygote_stacking::plan(&model, &request).map_err(refused(&arguments.model))?, Vec::new()),
     };
     let (bytes, report) = checked(&plan)?;

@@ -4,7 +4,9 @@ use crate::failure::Failure;
 use crate::input;
 use crate::plan::refused;
 use anyhow::anyhow;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
+use zygote_deployment::motion::{FreePlan, FreePlanError, Plates, Scope, free_plan};
 use zygote_stacking::{Counts, LikeError, Model, NetPlan, Plan, Request, plan_like, plan_with_net};
 
 /// A plan, and what to tell of the choice.
@@ -34,6 +36,50 @@ pub(crate) fn with_net(path: &Path, model: &Model, request: &Request) -> Result<
         }
     }
     Ok((plan, told))
+}
+
+/// A plan that opens without a collision.
+pub(crate) fn that_opens_freely(
+    path: &Path,
+    model: &Model,
+    request: &Request,
+    plates: Plates,
+    tries: u64,
+) -> Result<Choice, Failure> {
+    let bar = progress(tries);
+    let made = free_plan(model, request, plates, tries, &mut |tried, blocked| {
+        bar.set_position(tried);
+        if let Some(blocked) = blocked {
+            bar.set_message(format!("at best {blocked} hinges blocked"));
+        }
+    });
+    bar.finish_and_clear();
+    let FreePlan { plan, found, tried } = made.map_err(|error| match error {
+        FreePlanError::Plan(error) => refused(path)(error),
+        other => Failure::BadInput(anyhow!("{}: {other}", path.display())),
+    })?;
+    let panels = match plates {
+        Plates::Ideal => "panels without thickness",
+        Plates::Thick => "panels as thick as the plan's",
+    };
+    if found.blocked > 0 {
+        return Err(Failure::Failed(anyhow!(
+            "{}: of {tries} plans none opens freely with {panels}; the best one has {} hinges that something blocks (seed \
+             {}); try more with --tries, another --bridges, another number of piles, or thinner panels",
+            path.display(),
+            found.blocked,
+            plan.source.seed
+        )));
+    }
+    let order = match found.scope {
+        Scope::FromRoot => "from the root outwards",
+        Scope::Any => "in an order of its own",
+    };
+    let told = format!(
+        "motion: free, {order}, with {panels}; plan {tried} of at most {tries}, seed {}",
+        plan.source.seed
+    );
+    Ok((plan, vec![told]))
 }
 
 /// The plan that another one is to be like.
@@ -83,4 +129,11 @@ impl<'a> Like<'a> {
         ];
         Ok((like.plan, told))
     }
+}
+
+/// Plans tried, and the best of them.
+fn progress(tries: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos} of at most {len} plans tried, {elapsed} {msg}");
+    let bar = ProgressBar::new(tries);
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

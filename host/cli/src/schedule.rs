@@ -6,7 +6,7 @@ use crate::output::{say, write_file};
 use anyhow::Context;
 use clap::Args;
 use std::path::PathBuf;
-use zygote_deployment::{Kind, Millis, Schedule};
+use zygote_deployment::{Kind, Limits, Millis, Order, Schedule, Tree};
 use zygote_stacking::fold;
 
 /// Arguments of `zygote schedule`.
@@ -37,7 +37,8 @@ fn at_least_1(text: &str) -> Result<usize, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let rig = input::rig(&arguments.rig)?;
     let mut plan = input::plan(&arguments.plan)?;
-    let schedule = Schedule::plan(&plan, &rig, arguments.parallel)
+    let order = Order::of_tree(&Tree::new(&plan).context("no order").or_bad_input()?);
+    let schedule = Schedule::plan(&plan, &rig, &order, &Limits::at_most(arguments.parallel))
         .with_context(|| format!("{}: no schedule on this rig", arguments.plan.display()))
         .or_bad_input()?;
     schedule.verify(&plan, &rig).context("a fault of this program: its own schedule is wrong").or_failed()?;
@@ -62,12 +63,13 @@ fn summary(schedule: &Schedule) -> String {
         .map(|(count, kind)| format!("{count} {}", kind.name()))
         .collect();
     format!(
-        "{} steps ({}) on rig {} in {}, at most {} at once, drawing at most {} of {}",
+        "{} steps ({}) on rig {} in {} ({:.2} of the lower bound), at most {} at once, drawing at most {} of {}",
         schedule.steps.len(),
         kinds.join(", "),
         schedule.rig,
         clock(schedule.makespan),
-        schedule.parallel,
+        schedule.ratio(),
+        schedule.most_at_once(),
         schedule.peak_current,
         schedule.supply_limit,
     )

@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (order, of) = if plan.schedule.is_some() || arguments.schedule.is_some() {
         let schedule = input::schedule(&arguments.plan, &plan, &rig, arguments.schedule.as_deref())?;
         let order: Vec<_> = schedule.steps.iter().map(|step| step.hinge).collect();
-        (order, if schedule.parallel > 1 { "its schedule, but one by one" } else { "its schedule" })
+        (order, if schedule.most_at_once() > 1 { "its schedule, but one by one" } else { "its schedule" })
     } else {
         (Order::of_tree(&Tree::new(&plan).or_bad_input()?).hinges, "the tree")
     };
@@ -206,7 +206,7 @@ fn json(rig: &Rig, statics: &Statics, order: &str, overloads: &[Load]) -> serde_
 
 /// All steps as comma-separated values.
 fn csv(plan: &Plan, rig: &Rig, statics: &Statics) -> Result<String, Failure> {
-    let fittings = rig.fit(plan.hinges.len()).or_bad_input()?;
+    let fittings = rig.fit_tree(&Tree::new(plan).or_bad_input()?).or_bad_input()?;
     let mut text = "step,hinge,drive,turning_torque_mnm,turning_at_deg,turning_rating_mnm,turning_factor,holding_torque_mnm,\
                     holding_step,holding_turning_hinge,holding_at_deg,holding_rating_mnm,holding_factor,margin_mm\n"
         .to_owned();

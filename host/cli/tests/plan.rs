@@ -43,6 +43,24 @@ fn bridges_partition_and_grid_can_be_asked_for() {
 }
 
 #[test]
+fn a_plan_that_opens_freely_can_be_asked_for() {
+    let place = Scratch::new("plan_free");
+    let plan = |name: &str, options: &[&str]| {
+        let model = model(name);
+        let run = place.zygote(&[&["plan", &model, "-o", "free.fold", "--free"], options].concat());
+        (run.code, run.output + &run.errors)
+    };
+    let (code, output) = plan("fish92.txt", &["ideal", "--piles", "4"]);
+    assert!(code == 0 && output.contains("motion: free, from the root outwards"), "{output}");
+    assert!(output.contains("\nbridges: 3,"), "around a base: {output}");
+    let (code, output) = plan("l14.txt", &["thick", "--piles", "2", "--thickness", "0.05"]);
+    assert!(code == 0 && output.contains("motion: free,"), "{output}");
+    // Panels as thick as they are long don't open.
+    let (code, output) = plan("i14.txt", &["thick", "--thickness", "0.4", "--tries", "1"]);
+    assert!(code == 1 && output.contains("of 1 plans none opens freely"), "{output}");
+}
+
+#[test]
 fn the_same_command_writes_the_same_bytes() {
     let place = Scratch::new("plan_bytes");
     for name in ["a.fold", "b.fold"] {
@@ -117,10 +135,22 @@ fn quads_that_are_none_on_the_lattice_are_refused_with_their_line() {
         "bad/off_lattice.obj",
         &[],
         2,
-        &["line 4: vertex coordinate 1.5, expected a whole number"],
+        &["line 4: vertex coordinate 1.5, expected a whole number", "give --voxel SIZE or --panels N"],
     );
-    assert_refused("bad/long.obj", &[], 2, &["the face on line 6: corners", "expected a unit square"]);
+    assert_refused(
+        "bad/long.obj",
+        &[],
+        2,
+        &["the face on line 6: corners", "expected a unit square", "give --voxel SIZE or --panels N"],
+    );
     assert_refused("bad/twice.obj", &[], 2, &["the face on line 7", "the face on line 6", "every face once"]);
+}
+
+#[test]
+fn a_mesh_without_a_voxel_size_is_refused_with_the_options_that_help() {
+    for mesh in ["house.stl", "knot.off", "bird.obj"] {
+        assert_refused(mesh, &[], 2, &["--voxel SIZE", "--panels N"]);
+    }
 }
 
 #[test]
@@ -157,7 +187,12 @@ fn a_voxel_size_is_needed_for_a_mesh_and_only_for_a_mesh() {
     assert_refused("house.stl", &[], 2, &["give --voxel SIZE"]);
     assert_refused("house.stl", &["--voxel", "0"], 2, &["voxel size 0, expected a length above 0"]);
     assert_refused("house.stl", &["--voxel", "100"], 2, &["no voxel of size 100", "4 x 3 x 4"]);
-    assert_refused("house.stl", &["--voxel", "1e-6"], 2, &["voxels in the box, expected at most"]);
+    assert_refused(
+        "house.stl",
+        &["--voxel", "1e-6"],
+        2,
+        &["voxels of size 0.000001", "expected a larger size"],
+    );
     assert_refused("i14.txt", &["--voxel", "1"], 2, &["for meshes only: this format has voxels already"]);
     assert_refused("i14.txt", &["--panels", "20"], 2, &["for meshes only: this format has voxels already"]);
 }

@@ -103,7 +103,7 @@ fn a_schedule_beside_the_plan_leaves_the_plan_alone() {
     let schedule = Schedule::from_text(&folder.read("schedule.json")).expect("a good schedule");
     let plan = fold::read(before.as_bytes()).expect("a good plan");
     schedule.verify(&plan, &Rig::read("rig.toml", RIG).expect("a good rig")).expect("it belongs to both");
-    assert_eq!(schedule.parallel, 3);
+    assert_eq!(schedule.parallel, Some(3));
 }
 
 #[test]

@@ -34,6 +34,18 @@ pub enum ProgramError {
         /// How many it waits for.
         count: usize,
     },
+    /// A schedule on several nodes, of which each has an MCU of its own.
+    #[error(
+        "the schedule is for {} nodes (numbers {nodes:?} of the rig file), with {crossings} waits from one to another; \
+         for now a run drives one MCU: use a rig whose first node has channels for all hinges",
+        nodes.len()
+    )]
+    SeveralNodes {
+        /// Their numbers.
+        nodes: Vec<usize>,
+        /// Waits of a step of one for a step of another.
+        crossings: usize,
+    },
     /// The program is longer than the MCU's memory.
     #[error("the schedule has {steps} steps, the {board} has room for {room}")]
     TooLong {
@@ -95,6 +107,10 @@ fn fit<V: Copy + Display, N: TryFrom<V, Error = TryFromIntError>>(
 /// [`ProgramError`], when the MCU or the wire can't take it.
 pub fn program(schedule: &Schedule, mcu: &HelloReply) -> Result<Vec<Step>, ProgramError> {
     let board = || mcu.identity.board.to_string();
+    let nodes = schedule.nodes();
+    if nodes.len() > 1 {
+        return Err(ProgramError::SeveralNodes { nodes, crossings: schedule.crossings().len() });
+    }
     if schedule.steps.len() > usize::from(mcu.buffers.steps) {
         return Err(ProgramError::TooLong {
             steps: schedule.steps.len(),

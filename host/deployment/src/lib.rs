@@ -6,12 +6,14 @@
 //! plan ------> Tree --order--> hinges in order -+
 //! plan ------> Tolerance: how far panels are off, and cut edges gape, when hinges aren't exact
 //! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
+//! plan + order -> dense --> the same seen again by sampling, with code of its own
 //! plan + rig + order -> statics --> torque on every hinge against its rating, tipping of the whole
 //! plan ------> Kinematics --> poses of all panels --> picture (SVG)
 //! ```
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
 
+pub mod dense;
 mod heating;
 mod kinematics;
 pub mod motion;

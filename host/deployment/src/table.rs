@@ -91,12 +91,18 @@ mod tests {
     use super::*;
     use crate::rig::Rig;
     use crate::testing::{real_plans, rig_text};
+    use crate::{Limits, Order, Tree};
+
+    fn scheduled(plan: &Plan) -> Schedule {
+        let rig = Rig::read("rig.toml", &rig_text("")).expect("a good rig");
+        let order = Order::of_tree(&Tree::new(plan).expect("a tree"));
+        Schedule::plan(plan, &rig, &order, &Limits::at_most(1)).expect("a schedule")
+    }
 
     #[test]
     fn every_step_has_a_row_with_its_place_its_time_and_what_it_waits_for() {
         let plan = real_plans().remove(1);
-        let rig = Rig::read("rig.toml", &rig_text("")).expect("a good rig");
-        let schedule = Schedule::plan(&plan, &rig, 1).expect("a schedule");
+        let schedule = scheduled(&plan);
         let text = csv(&schedule, &plan).expect("its own plan");
         let rows: Vec<Vec<_>> = text.lines().map(|line| line.split(',').collect()).collect();
         assert_eq!(rows.len(), 1 + plan.hinges.len());
@@ -116,8 +122,7 @@ mod tests {
     #[test]
     fn a_schedule_of_another_plan_has_no_table() {
         let plans = real_plans();
-        let rig = Rig::read("rig.toml", &rig_text("")).expect("a good rig");
-        let schedule = Schedule::plan(&plans[0], &rig, 1).expect("a schedule");
+        let schedule = scheduled(&plans[0]);
         let refusal = csv(&schedule, &plans[1]).expect_err("another plan").to_string();
         assert!(refusal.starts_with("schedule: it belongs to the plan"), "{refusal}");
     }

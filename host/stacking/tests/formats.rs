@@ -168,7 +168,59 @@ fn crumbs_are_dropped_and_two_bodies_are_refused() {
     assert_eq!(model.surface().len(), 216);
     let told = read("bodies.obj", obj(&boxes(&[body, ([9.0; 3], [12.0; 3])])).as_bytes(), 1.0).unwrap_err();
     assert!(
-        told.contains("a solid in 2 pieces, expected one: 216 voxels with the one at (0, 0, 0)"),
+        told.contains("a solid in 2 pieces, expected one: 216 voxels with the one at (0.5, 0.5, 0.5)"),
         "{told}"
     );
+}
+
+/// A binary STL file of the same corners, with two triangles for each quad.
+fn binary_stl((corners, quads): &(Vec<Corner>, Vec<[usize; 4]>)) -> Vec<u8> {
+    let mut bytes = format!("{:80}", "solid of a program that says so of binary files too").into_bytes();
+    bytes.extend(u32::try_from(2 * quads.len()).unwrap().to_le_bytes());
+    for triangle in quads.iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]) {
+        bytes.extend([0; 12]);
+        for c in triangle.iter().flat_map(|corner| corners[**corner]) {
+            #[expect(clippy::cast_possible_truncation, reason = "small whole numbers")]
+            bytes.extend((c as f32).to_le_bytes());
+        }
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+#[test]
+fn a_binary_stl_that_ends_early_is_refused_with_its_length() {
+    let whole = binary_stl(&cuboid([0.0; 3], [3.0, 2.0, 2.0]));
+    assert_eq!(read("whole.stl", &whole, 1.0).unwrap().surface().len(), 32);
+    let told = read("early.stl", &whole[..500], 1.0).unwrap_err();
+    assert!(
+        told.contains("byte 500 of 500: expected more triangles, as many as announced at byte 80"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_plate_without_a_voxels_centre_inside_is_one_voxel_thick_and_told() {
+    for (name, thickness) in [("thin.obj", 0.2), ("flat.obj", 0.0)] {
+        let plate = cuboid([0.0; 3], [6.0, 4.0, thickness]);
+        let model = read(name, obj(&plate).as_bytes(), 1.0).unwrap();
+        assert_eq!(model.surface().len(), 2 * (6 * 4 + 6 + 4), "{name}");
+        assert_eq!(model.repairs().last(), Some(&Repair::Thickened { voxels: 24 }), "{name}");
+    }
+}
+
+#[test]
+fn a_mesh_smaller_than_a_voxel_and_one_of_too_many_voxels_are_refused_with_the_way_out() {
+    let mesh = obj(&cuboid([0.0; 3], [1.0; 3]));
+    let told = read("coarse.obj", mesh.as_bytes(), 3.0).unwrap_err();
+    assert!(told.ends_with("whose box is 1 x 1 x 1: expected a smaller size"), "{told}");
+    let told = read("fine.obj", mesh.as_bytes(), 1e-4).unwrap_err();
+    assert!(told.ends_with("expected at most 67108864: expected a larger size, or fewer panels"), "{told}");
+}
+
+#[test]
+fn names_in_any_encoding_do_not_keep_a_mesh_from_being_read() {
+    let shape = cuboid([0.0; 3], [2.0; 3]);
+    let named = [&b"o W\xfcrfel # f\xfcr uns\n"[..], obj(&shape).as_bytes()].concat();
+    assert_eq!(read("named.obj", &named, 1.0).unwrap().surface().len(), 24);
 }

@@ -38,9 +38,17 @@ pub(super) enum Wanted {
 /// # Errors
 /// The conflict.
 pub fn apart(first: &Body, second: &Body) -> Result<(), Conflict> {
-    Pair { first, second, wanted: Wanted::Least, touching: TOUCHING, clearance: None, hint: None }
-        .over_all()
-        .map_or(Ok(()), Err)
+    Pair {
+        first,
+        second,
+        wanted: Wanted::Least,
+        touching: TOUCHING,
+        finest: FINEST,
+        clearance: None,
+        hint: None,
+    }
+    .over_all()
+    .map_or(Ok(()), Err)
 }
 
 /// Two bodies in question.
@@ -50,6 +58,8 @@ pub(super) struct Pair<'a> {
     pub(super) wanted: Wanted,
     /// So much of overlap still is touching.
     pub(super) touching: f64,
+    /// Intervals over which both travel less aren't halved: [`FINEST`], or more where a conflict may be wrong by more.
+    pub(super) finest: f64,
     /// The least clearance so far, where somebody asks for it: lowered to what is proved for these two.
     pub(super) clearance: Option<&'a mut f64>,
     /// The direction that parted them last.
@@ -76,7 +86,7 @@ impl Pair<'_> {
         }
         let travel = (self.first.travel(first), self.second.travel(second));
         let found = Conflict { first: [first.from, first.to], second: [second.from, second.to] };
-        if travel.0.max(travel.1) <= FINEST {
+        if travel.0.max(travel.1) <= self.finest {
             return Some(found);
         }
         if self.wanted == Wanted::Any {
@@ -97,7 +107,13 @@ impl Pair<'_> {
         let (a, b) = (self.first.at(first.middle()), self.second.at(second.middle()));
         let axes = [self.hint, self.first.axis(), self.second.axis()].into_iter().flatten();
         let mut widest: Option<f64> = None;
-        for direction in axes.chain(directions(&a.half, &b.half)) {
+        // Where both turn, what lies against the other at an end of the interval is parted by its normal there, by none of
+        // the middle.
+        let both = self.first.axis().is_some() && self.second.axis().is_some();
+        let normal = |body: &Body, angle: f64| body.at(angle).half[2].normalize_or_zero();
+        let at_ends = [(self.first, first), (self.second, second)].into_iter().filter(|_| both);
+        let at_ends = at_ends.flat_map(|(body, over)| [normal(body, over.from), normal(body, over.to)]);
+        for direction in axes.chain(directions(&a.half, &b.half)).chain(at_ends) {
             let [low, high] = self.first.extent(direction, first);
             let [other_low, other_high] = self.second.extent(direction, second);
             let gap = (other_low - high).max(low - other_high);

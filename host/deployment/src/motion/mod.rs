@@ -5,6 +5,7 @@
 //!     -> Motion (what is open, where every panel is) --open a hinge--> blocks that turn, blocks that stand still
 //!     -> near (pairs that could meet) -> apart (extents over angle intervals) -> Collision
 //! check: all steps of an order -> Report
+//! search: a free order, one hinge at a time -> waits_for: which hinges must wait for which, whatever their speeds
 //! ```
 //!
 //! A panel is a plate: its outer face is a unit square, its thickness goes to the inner side. A border (the *rim*) of
@@ -12,29 +13,37 @@
 //! Two cores collide where their interiors do; touching is none.
 
 mod apart;
+mod backward;
 mod block;
 mod certificate;
 mod check;
 mod collision;
 mod cuboid;
+mod forward;
+mod free_plan;
 mod linkage;
 mod near;
+mod search;
 mod state;
 #[cfg(test)]
 mod tests;
 mod thickness;
 mod turning;
+mod waits;
 
 pub use apart::{Conflict, FINEST, apart};
 pub use certificate::Certificate;
 pub use check::{Options, OrderError, Report, check};
 pub use collision::{Collision, Obstacle};
 pub use cuboid::Cuboid;
+pub use free_plan::{FreePlan, FreePlanError, Plates, free_plan};
 pub use linkage::Linkage;
 pub use near::LOOKED_FOR;
+pub use search::{Effort, Found, Scope, search};
 pub use state::{Ground, Motion};
 pub use thickness::{MotionError, Thickness};
 pub use turning::{Body, Interval, Turn};
+pub use waits::waits_for;
 
 /// So much of overlap, in panel lengths, is rounding, not a collision: far above the error of poses along thousands of
 /// joints, far below any thickness. See also [`Thickness::touching`].

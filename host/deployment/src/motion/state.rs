@@ -116,6 +116,16 @@ impl Motion {
         first
     }
 
+    /// The same among some panels alone: nothing else is looked at.
+    pub(super) fn blocked_among(&self, hinge: usize, counts: &dyn Fn(usize) -> bool) -> bool {
+        let mut blocked = false;
+        self.examine_among(hinge, counts, Wanted::Any, &mut Tally::new(), &mut |_| {
+            blocked = true;
+            true
+        });
+        blocked
+    }
+
     /// All collisions that opening a closed hinge causes, one for every two blocks that meet.
     pub(super) fn collisions(&self, hinge: usize, tally: &mut Tally) -> Vec<Collision> {
         let mut all = Vec::new();
@@ -136,25 +146,42 @@ impl Motion {
         if carried(first, second) || carried(second, first) {
             return false;
         }
-        let [ours, theirs] = [first, second].map(|hinge| {
-            let turn = self.linkage.turn(hinge, &self.poses);
-            let (moving, _) = self.blocks(hinge);
-            let swept = |block: &Block| {
-                let body = Body::turning(block.cuboid, &turn);
-                (body, body.swept())
-            };
-            moving.iter().map(swept).collect::<Vec<_>>()
-        });
+        let [ours, theirs] = [first, second]
+            .map(|hinge| self.leg(hinge).into_iter().map(|body| (body, body.swept())).collect::<Vec<_>>());
         let touching = self.linkage.thickness().touching();
         ours.iter().all(|(first, [low, high])| {
             theirs.iter().all(|(second, [other_low, other_high])| {
                 low.cmpgt(*other_high).any()
                     || other_low.cmpgt(*high).any()
-                    || Pair { first, second, wanted: Wanted::Any, touching, clearance: None, hint: None }
-                        .over_all()
-                        .is_none()
+                    || Pair {
+                        first,
+                        second,
+                        wanted: Wanted::Any,
+                        touching,
+                        finest: FINEST,
+                        clearance: None,
+                        hint: None,
+                    }
+                    .over_all()
+                    .is_none()
             })
         })
+    }
+
+    /// What a hinge would move, turning from closed to open; nothing where it doesn't turn.
+    pub(super) fn leg(&self, hinge: usize) -> Vec<Body> {
+        let turn = self.linkage.turn(hinge, &self.poses);
+        if turn.angle == 0.0 {
+            return Vec::new();
+        }
+        let mut bodies = Vec::new();
+        let closed = |fold: usize| fold != hinge && !self.open[fold];
+        block::each(&self.linkage, &self.poses, closed, |block| {
+            if self.linkage.moves(hinge, block.layers[0].panel) {
+                bodies.push(Body::turning(block.cuboid, &turn));
+            }
+        });
+        bodies
     }
 
     fn set(&mut self, hinge: usize, open: bool) {
@@ -185,11 +212,25 @@ impl Motion {
         tally: &mut Tally,
         take: &mut dyn FnMut(Collision) -> bool,
     ) {
+        self.examine_among(hinge, &|_| true, wanted, tally, take);
+    }
+
+    /// The same for blocks of panels that count.
+    fn examine_among(
+        &self,
+        hinge: usize,
+        counts: &dyn Fn(usize) -> bool,
+        wanted: Wanted,
+        tally: &mut Tally,
+        take: &mut dyn FnMut(Collision) -> bool,
+    ) {
         let turn = self.linkage.turn(hinge, &self.poses);
         if self.open[hinge] || turn.angle == 0.0 {
             return;
         }
-        let (moving, still) = self.blocks(hinge);
+        let (mut moving, mut still) = self.blocks(hinge);
+        moving.retain(|block| counts(block.layers[0].panel));
+        still.retain(|block| counts(block.layers[0].panel));
         let panels = |blocks: &[Block]| blocks.iter().map(|block| block.layers.len() as u64).sum::<u64>();
         tally.panel_pairs += panels(&moving) * panels(&still);
         let bodies: Vec<_> = moving.iter().map(|block| Body::turning(block.cuboid, &turn)).collect();
@@ -212,7 +253,8 @@ impl Motion {
             let touches = || [0.0, turn.angle].iter().any(|at| body.at(*at).gap(other.start()) <= TOUCHING);
             let clearance = (wanted == Wanted::Least && !touches()).then_some(&mut tally.clearance);
             let conflict =
-                Pair { first: body, second: &other, wanted, touching, clearance, hint: None }.over_all();
+                Pair { first: body, second: &other, wanted, touching, finest: FINEST, clearance, hint: None }
+                    .over_all();
             conflict.is_some_and(|conflict| {
                 take(self.between(hinge, [&moving[a], &still[b]], &turn, wanted, &conflict))
             })

@@ -85,6 +85,22 @@ pub enum MotionError {
         /// Panels in the plan.
         panels: usize,
     },
+    /// An order that doesn't open every hinge once.
+    #[error("order: hinge {hinge} must stand in it exactly once, found {found} times")]
+    Order {
+        /// The hinge.
+        hinge: usize,
+        /// Times that the order names it.
+        found: usize,
+    },
+    /// An order names what is no hinge.
+    #[error("order: expected numbers of the {hinges} hinges, found {found}")]
+    NoHinge {
+        /// What it names.
+        found: usize,
+        /// Hinges in the plan.
+        hinges: usize,
+    },
     /// A direction that is none.
     #[error("ground: its normal must be a finite vector that isn't zero, found ({x}, {y}, {z})")]
     Ground {

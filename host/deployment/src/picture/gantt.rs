@@ -144,7 +144,7 @@ impl Chart {
             schedule.steps.len(),
             schedule.rig,
             clock(self.end, if self.end < 60.0 { 0.1 } else { 1.0 }),
-            schedule.parallel
+            schedule.most_at_once()
         );
         self.text("note start", left + DVec2::new(0.0, 22.0), figures);
         let mut right = MARGIN + LABELS + PLOT;
@@ -182,7 +182,8 @@ impl Chart {
                 (true, from, to) => format!("{from}° to {to}°"),
             };
             if row.steps.len() == 1 {
-                let has_room = to + 80.0 < left + PLOT;
+                let room = if angles { 80.0 } else { 26.0 };
+                let has_room = to + room < left + PLOT;
                 let (class, x) = if has_room { ("small start", to + 5.0) } else { ("small end", from - 5.0) };
                 self.text(class, DVec2::new(x, base), beside);
             }
@@ -257,12 +258,14 @@ mod tests {
     use super::*;
     use crate::rig::Rig;
     use crate::testing::{real_plans, rig_text, strip};
+    use crate::{Limits, Order, Tree};
 
     fn scheduled(plan: &Plan, parallel: usize) -> Schedule {
         let extra = "[[hinge]]\nhinge = 0\nkind = \"servo\"\n[[hinge]]\nhinge = 1\nkind = \"spring\"\n";
         let text = rig_text(extra).replace("heaters = 16", "heaters = 400");
-        Schedule::plan(plan, &Rig::read("rig.toml", &text).expect("a good rig"), parallel)
-            .expect("a schedule")
+        let rig = Rig::read("rig.toml", &text).expect("a good rig");
+        let order = Order::of_tree(&Tree::new(plan).expect("a tree"));
+        Schedule::plan(plan, &rig, &order, &Limits::at_most(parallel)).expect("a schedule")
     }
 
     /// A number of an attribute, in pixels.

@@ -34,10 +34,10 @@ pub enum RigError {
         /// The plan's last hinge.
         last: usize,
     },
-    /// The plan has more hinges of a kind than the node can drive.
+    /// The plan has more hinges of a kind than the nodes can drive.
     #[error(
-        "{place}: too few {}: the plan needs {needed} for its {} hinges, the node has {available}",
-        kind.channel_key(), kind.name()
+        "{place}: too few {}: the plan needs {needed} for its {} hinges, {} {available}",
+        kind.channel_key(), kind.name(), if *nodes == 1 { "the node has".to_owned() } else { format!("the {nodes} nodes have") }
     )]
     TooFewChannels {
         /// Where.
@@ -46,15 +46,9 @@ pub enum RigError {
         kind: Kind,
         /// Hinges of the kind.
         needed: usize,
-        /// Channels of the kind.
-        available: u16,
-    },
-    /// Not supported yet.
-    #[error("{place}: a schedule can use one node for now, found {nodes}")]
-    SeveralNodes {
-        /// Where.
-        place: Place,
-        /// How many there are.
+        /// Nodes that have channels for them.
         nodes: usize,
+        /// Channels of the kind, of all these nodes.
+        available: usize,
     },
 }

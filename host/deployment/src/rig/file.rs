@@ -97,6 +97,7 @@ impl Default for HingesTable {
 pub(super) struct HingeTable {
     pub(super) hinge: usize,
     pub(super) kind: Option<Kind>,
+    pub(super) node: Option<String>,
     pub(super) channel: Option<u16>,
     pub(super) sma: Option<SmaTable>,
     pub(super) servo: Option<ServoTable>,

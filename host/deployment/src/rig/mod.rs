@@ -111,6 +111,8 @@ impl Node {
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
     hinge: usize,
+    /// Name of its node.
+    node: Option<String>,
     channel: Option<u16>,
     drive: Drive,
 }
@@ -162,7 +164,7 @@ impl Rig {
                         Drive::Spring(SpringSettings::resolve(entry.spring.as_ref(), &file.spring))
                     }
                 };
-                Entry { hinge: entry.hinge, channel: entry.channel, drive }
+                Entry { hinge: entry.hinge, node: entry.node.clone(), channel: entry.channel, drive }
             })
             .collect();
         Self {

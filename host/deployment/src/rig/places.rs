@@ -51,11 +51,6 @@ impl Places {
         let present = keys.iter().find(|key| self.lines.contains_key(*key));
         self.of(present.or(keys.last()).cloned().unwrap_or_default())
     }
-
-    /// The place of the whole file.
-    pub(super) fn whole(&self) -> Place {
-        self.of("")
-    }
 }
 
 /// The line, from 1, in which a span of `text` begins.

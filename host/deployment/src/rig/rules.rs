@@ -6,7 +6,7 @@ use super::rating::Rating;
 use super::settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
 use super::sim::SmaPlant;
 use super::weight::Weight;
-use super::{Rig, RigError};
+use super::{Entry, Rig, RigError};
 use crate::heating;
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -48,6 +48,11 @@ impl Rig {
         rules.at_most("link.timeout", self.link.timeout, &"", LONGEST_TIMEOUT)?;
         rules.hold(self.link.baud > 0, "link.baud", "bits per second above 0", "0")?;
         rules.hold(!self.nodes.is_empty(), "node", "at least one [[node]]", "none")?;
+        let mut names = BTreeSet::new();
+        for (index, node) in self.nodes.iter().enumerate() {
+            let once = names.insert(node.name.as_str());
+            rules.hold(once, &format!("node[{index}].name"), "another name for every node", &node.name)?;
+        }
         match &self.panel {
             None => {}
             Some(Weight::Each(mass)) => {
@@ -83,6 +88,7 @@ impl Rig {
             let own = Rules { place: |key: &str| self.places.of(format!("hinge[{index}].{key}")), rig: self };
             let once = seen.insert(entry.hinge);
             own.hold(once, "hinge", "every hinge once", &format!("{} again", entry.hinge))?;
+            self.check_node(index, entry)?;
             let kind = entry.drive.kind();
             for other in Kind::ALL.into_iter().filter(|other| *other != kind) {
                 let place = (own.place)(other.name());
@@ -104,6 +110,23 @@ impl Rig {
         }
         let rules = Rules { place: |key: &str| self.places.of(key), rig: self };
         rules.between("sim.ambient", self.sim.ambient, COLDEST, HOTTEST)
+    }
+
+    /// A hinge's node exists, and is named where its channel alone doesn't say which one it is of.
+    fn check_node(&self, index: usize, entry: &Entry) -> Result<(), RigError> {
+        let rules = Rules { place: |key: &str| self.places.of(format!("hinge[{index}].{key}")), rig: self };
+        let names: Vec<_> = self.nodes.iter().map(|node| node.name.as_str()).collect();
+        if let Some(name) = &entry.node {
+            let known = names.contains(&name.as_str());
+            return rules.hold(known, "node", &format!("one of the nodes {}", names.join(", ")), name);
+        }
+        let clear = entry.channel.is_none() || names.len() == 1;
+        rules.hold(
+            clear,
+            "channel",
+            &format!("a node beside it, one of {}", names.join(", ")),
+            "a channel alone",
+        )
     }
 
     /// The lowest voltage, in volts, that actuators see while the current is within its limit.

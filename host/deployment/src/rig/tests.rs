@@ -1,7 +1,9 @@
 //! Good rig files, and what is said of bad ones.
 
 use super::*;
-use crate::testing::rig_text;
+use crate::testing::{rig_text, tree_plan};
+use crate::tree::Tree;
+use zygote_stacking::HingeKind;
 
 fn rig(extra: &str) -> Rig {
     Rig::read("rig.toml", &rig_text(extra)).expect("a good rig")
@@ -62,6 +64,20 @@ fn free_channels_are_dealt_out_around_those_that_are_taken() {
 }
 
 #[test]
+fn hinges_go_to_the_node_of_the_hinge_before_them_and_to_the_next_where_that_is_full() {
+    // A trunk 0 - 1 - 2, with a branch of three at its first panel and another at its last.
+    let plan = tree_plan(&[0, 1, 2, 1, 4, 5, 3, 7, 8], &[HingeKind::Fold; 9]);
+    let text =
+        rig_text("[[node]]\nname = \"b\"\nheaters = 16\n[[hinge]]\nhinge = 3\nnode = \"b\"\nchannel = 0\n");
+    let rig = Rig::read("rig.toml", &text.replace("name = \"a\"\nheaters = 16", "name = \"a\"\nheaters = 5"));
+    let fittings =
+        rig.expect("a good rig").fit_tree(&Tree::new(&plan).expect("a tree")).expect("channels for all");
+    let sockets: Vec<_> = fittings.iter().map(|fitting| (fitting.node, fitting.channel)).collect();
+    // Hinge 3 is given away, and takes 4 and 5 with it; the rest goes along the trunk until its node is full.
+    assert_eq!(sockets, [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (0, 4), (1, 3)]);
+}
+
+#[test]
 fn a_wrong_key_is_refused_with_its_line() {
     insta::assert_snapshot!(changed("limit =", "limt ="), @"rig.toml:6: unknown field `limt`, expected one of `voltage`, `limit`, `resistance`");
     insta::assert_snapshot!(changed("limit = \"2 A\"\n", ""), @"rig.toml:4: missing field `limit`");
@@ -99,6 +115,9 @@ fn values_that_cannot_work_are_refused_with_their_place() {
         refusal(&rig_text("[[hinge]]\nhinge = 3\n[[hinge]]\nhinge = 3\n")),
         refusal(&rig_text("[[hinge]]\nhinge = 3\nkind = \"servo\"\nsma = { hold = \"1 s\" }\n")),
         refusal(&rig_text("[[hinge]]\nhinge = 3\nkind = \"motor\"\n")),
+        refusal(&rig_text("[[node]]\nname = \"a\"\n")),
+        refusal(&rig_text("[[hinge]]\nhinge = 3\nnode = \"b\"\n")),
+        refusal(&rig_text("[[node]]\nname = \"b\"\n[[hinge]]\nhinge = 3\nchannel = 1\n")),
         refusal(&rig_text("[sim.sma]\nmartensite_finish = \"60 degC\"\n")),
     ];
     insta::assert_snapshot!(refusals.join("\n"));
@@ -118,7 +137,11 @@ fn a_rig_that_does_not_suit_a_plan_is_refused() {
         unfit("[[hinge]]\nhinge = 13\n", 13),
         unfit("[[hinge]]\nhinge = 1\nchannel = 16\n", 13),
         unfit("[[hinge]]\nhinge = 1\nchannel = 3\n[[hinge]]\nhinge = 2\nchannel = 3\n", 13),
-        unfit("[[node]]\nname = \"b\"\nheaters = 16\n", 13),
+        unfit("[[node]]\nname = \"b\"\nheaters = 16\n", 33),
+        unfit(
+            "[[node]]\nname = \"b\"\nheaters = 1\n[[hinge]]\nhinge = 1\nnode = \"b\"\n[[hinge]]\nhinge = 2\nnode = \"b\"\n",
+            13,
+        ),
         unfit("[[sim.hinge]]\nhinge = 20\nsma = { load = \"1 mNm\" }\n", 13),
     ];
     insta::assert_snapshot!(refusals.join("\n"));

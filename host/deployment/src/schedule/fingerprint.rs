@@ -1,11 +1,12 @@
 //! A number that tells one plan from another, so that a schedule is never run with a plan that it wasn't made for.
 
+use super::Step;
 use crc::{CRC_64_XZ, Crc, Digest};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 use zygote_stacking::{HingeKind, Plan, Side};
 
-/// CRC-64 over all of a plan that a deployment depends on: target, zygote, hinges, piles and root.
+/// CRC-64, of a plan over all that a deployment depends on: target, zygote, hinges, piles and root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Fingerprint(pub u64);
 
@@ -43,6 +44,19 @@ impl Fingerprint {
             pile.panels.iter().for_each(|panel| bytes.size(*panel));
         }
         bytes.size(plan.root);
+        Self(bytes.0.finalize())
+    }
+}
+
+impl Fingerprint {
+    /// The fingerprint of which hinge each step moves and which steps it waits for.
+    pub(super) fn of_order(steps: &[Step]) -> Self {
+        let mut bytes = Bytes(ALGORITHM.digest());
+        for step in steps {
+            bytes.size(step.hinge);
+            bytes.size(step.after.len());
+            step.after.iter().for_each(|before| bytes.size(*before));
+        }
         Self(bytes.0.finalize())
     }
 }

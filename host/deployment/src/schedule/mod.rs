@@ -2,32 +2,49 @@
 //! for its JSON.
 //!
 //! [`Schedule::plan`] makes one, [`Schedule::verify`] holds it against plan and rig without using what made it.
+//!
+//! ```text
+//! Order + Rig + Limits -> Problem --lower_bound--> time that none is shorter than
+//!                            |
+//!                            +--search (greedy, timeline, exact)--> starts --waiting--> after --> Schedule
+//! ```
 
+mod crossing;
+mod exact;
 mod fingerprint;
-mod list;
+mod greedy;
+mod lower_bound;
+mod make;
 mod motion;
+mod problem;
+mod reduction;
 mod reversed;
+mod search;
+mod timeline;
 mod units;
 mod verify;
+mod waiting;
 
+pub use crossing::Crossing;
 pub use fingerprint::Fingerprint;
-pub use list::SchedulingError;
+pub use make::{Limits, SchedulingError};
 pub(crate) use motion::start_opening_deg;
 pub use motion::{Motion, ServoMotion, SmaMotion, SpringMotion};
 pub use reversed::ReverseError;
 pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
 
+use crate::motion::Certificate;
 use serde::{Deserialize, Serialize};
 
 /// The one version of the schedule.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A step waits for at most this many others: the wire has room for no more.
 pub const MOST_AFTER: usize = 4;
 
 /// A deployment: one step a hinge.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Schedule {
     version: u32,
@@ -35,8 +52,16 @@ pub struct Schedule {
     pub rig: String,
     /// The plan that it was made for.
     pub plan_crc64: Fingerprint,
-    /// Most motions at once.
-    pub parallel: usize,
+    /// Of what its steps move and wait for.
+    pub order_crc64: Fingerprint,
+    /// What was checked of its order's motion; without it nothing was, and hinges open in the order of the tree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Certificate>,
+    /// Most motions at once, where that is limited beside the supply.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parallel: Option<usize>,
+    /// Whether of a node's servos one moves at a time.
+    pub one_servo_a_node: bool,
     /// The supply limit that it keeps.
     #[serde(rename = "supply_limit_ma")]
     pub supply_limit: Milliamps,
@@ -46,6 +71,9 @@ pub struct Schedule {
     /// When the last hinge is opened, as expected.
     #[serde(rename = "makespan_ms")]
     pub makespan: Millis,
+    /// No schedule of the same order on the same rig is shorter.
+    #[serde(rename = "lower_bound_ms")]
+    pub lower_bound: Millis,
     /// The steps; each comes after all that it waits for.
     pub steps: Vec<Step>,
 }
@@ -60,8 +88,8 @@ pub struct Step {
     pub node: usize,
     /// Channel of the node, of the motion's kind.
     pub channel: u16,
-    /// Indices of the steps that must be opened before this one starts, rising, each below this step's own; the
-    /// hinge before this one in the tree is among them.
+    /// Indices of the steps that must be opened before this one starts, rising, each below this step's own.
+    /// What those wait for in turn is waited for as well.
     pub after: Vec<usize>,
     /// Opening angle in the zygote, degrees.
     pub from_opening_deg: u16,
@@ -109,6 +137,35 @@ pub enum ReadError {
 }
 
 impl Schedule {
+    /// With what was checked of its order.
+    #[must_use]
+    pub fn with_certificate(self, certificate: Certificate) -> Self {
+        Self { certificate: Some(certificate), ..self }
+    }
+
+    /// How many times as long as the lower bound it takes; 1 is the shortest there is.
+    pub fn ratio(&self) -> f64 {
+        if self.makespan == self.lower_bound {
+            1.0
+        } else {
+            self.makespan.0 as f64 / self.lower_bound.0 as f64
+        }
+    }
+
+    /// The most motions at once, as expected.
+    pub fn most_at_once(&self) -> usize {
+        // At one time endings come first.
+        let ends = self.steps.iter().map(|step| (step.opened(), -1));
+        let mut changes: Vec<(Millis, isize)> =
+            self.steps.iter().map(|step| (step.start, 1)).chain(ends).collect();
+        changes.sort_unstable();
+        let moving = changes.iter().scan(0, |moving, (_, change)| {
+            *moving += change;
+            Some(*moving)
+        });
+        moving.max().map_or(0, isize::unsigned_abs)
+    }
+
     /// Reads the value of a plan's `zygote:schedule`.
     ///
     /// # Errors
@@ -146,5 +203,7 @@ impl Schedule {
     }
 }
 
+#[cfg(test)]
+mod solve_tests;
 #[cfg(test)]
 mod tests;

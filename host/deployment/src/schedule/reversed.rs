@@ -1,10 +1,13 @@
 //! A schedule run backwards: servos go both ways, so a shape that opened folds up again.
 //!
 //! What waits for what is turned round, and so are pulses, angles and times. [`Schedule::verify`] holds a schedule against the way
-//! out, so it is the forward schedule that is to be verified before.
+//! out; the way back is verified by turning it round once more.
 
-use super::{MOST_AFTER, Milliamps, Millis, Motion, Schedule, ServoMotion, Step};
-use crate::rig::Kind;
+use super::{
+    Fingerprint, MOST_AFTER, Milliamps, Millis, Motion, Schedule, ServoMotion, Step, VerifyError, reduction,
+};
+use crate::rig::{Kind, Rig};
+use zygote_stacking::Plan;
 
 /// Why a schedule can't be run backwards.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -39,6 +42,9 @@ pub enum ReverseError {
         /// The limit.
         limit: Milliamps,
     },
+    /// Turned round, it is no good schedule.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
 }
 
 impl Schedule {
@@ -59,25 +65,41 @@ impl Schedule {
         }
         // In the new order, so that all that a step waits for comes before it.
         after.reverse();
+        let order: Vec<_> = (0..after.len()).collect();
+        let mut after = reduction::of(after, &order).into_iter();
         let mut steps: Vec<Step> = Vec::with_capacity(self.steps.len());
-        for (index, step) in self.steps.iter().rev().enumerate() {
-            let waits = fewest(&after, index);
+        for step in self.steps.iter().rev() {
+            let waits = after.next().unwrap_or_default();
             if waits.len() > MOST_AFTER {
                 return Err(ReverseError::TooManyBefore { hinge: step.hinge, found: waits.len() });
             }
             steps.push(Step {
-                after: waits.clone(),
+                after: waits,
                 from_opening_deg: step.opening_deg,
                 opening_deg: step.from_opening_deg,
                 start: Millis(makespan.0.saturating_sub(step.opened().0)),
                 motion: Motion::Servo(backwards(step)?),
                 ..step.clone()
             });
-            after[index] = waits;
         }
-        let mut reversed = Self { steps, ..self.clone() };
+        let order_crc64 = Fingerprint::of_order(&steps);
+        let mut reversed = Self { order_crc64, steps, ..self.clone() };
         reversed.peak_current = reversed.peak()?;
         Ok(reversed)
+    }
+
+    /// Checks that this schedule folds this plan up again on this rig: turned round once more it is verified, and its own currents are.
+    ///
+    /// # Errors
+    /// [`ReverseError`] with the first thing that is wrong.
+    pub fn verify_reversed(&self, plan: &Plan, rig: &Rig) -> Result<(), ReverseError> {
+        let same = |key, expected: String, found: String| {
+            if expected == found { Ok(()) } else { Err(VerifyError::Whole { key, expected, found }) }
+        };
+        let order = Fingerprint::of_order(&self.steps);
+        same("order_crc64", order.to_string(), self.order_crc64.to_string())?;
+        same("peak_current_ma", self.peak()?.to_string(), self.peak_current.to_string())?;
+        Ok(self.reversed()?.verify(plan, rig)?)
     }
 
     /// The highest sum of currents, if it is within the limit.
@@ -103,32 +125,6 @@ impl Schedule {
     }
 }
 
-/// What a step waits for, rising: all of it, or if that is too much only what nothing else of it waits for.
-fn fewest(after: &[Vec<usize>], step: usize) -> Vec<usize> {
-    let mut waits = after[step].clone();
-    waits.sort_unstable();
-    waits.dedup();
-    if waits.len() <= MOST_AFTER {
-        return waits;
-    }
-    let implied = |wait: &usize| waits.iter().any(|other| other > wait && reaches(after, *other, *wait));
-    waits.iter().copied().filter(|wait| !implied(wait)).collect()
-}
-
-/// Whether one step waits for another, directly or through others.
-fn reaches(after: &[Vec<usize>], from: usize, to: usize) -> bool {
-    let (mut open, mut seen) = (vec![from], vec![false; from + 1]);
-    while let Some(step) = open.pop() {
-        if step == to {
-            return true;
-        }
-        // What a step waits for comes before it, so nothing below `to` leads there.
-        let unseen = after[step].iter().copied().filter(|next| *next >= to);
-        open.extend(unseen.filter(|next| !std::mem::replace(&mut seen[*next], true)));
-    }
-    false
-}
-
 fn backwards(step: &Step) -> Result<ServoMotion, ReverseError> {
     match step.motion {
         Motion::Servo(motion) => Ok(ServoMotion { from: motion.to, to: motion.from, ..motion }),
@@ -141,15 +137,21 @@ fn backwards(step: &Step) -> Result<ServoMotion, ReverseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rig::Rig;
+    use crate::order::Order;
+    use crate::schedule::Limits;
     use crate::testing::{real_plans, rig_text};
+    use crate::tree::Tree;
 
-    fn scheduled(extra: &str, limit: &str, parallel: usize, plan: usize) -> Schedule {
+    fn rig(extra: &str, limit: &str) -> Rig {
         let text = rig_text(&format!("[hinges]\ndefault = \"servo\"\n{extra}"));
         let text = text.replace("servos = 4", "servos = 100").replace("2 A", limit);
-        let rig = Rig::read("rig.toml", &text).expect("a good rig");
-        let plan = &real_plans()[plan];
-        let schedule = Schedule::plan(plan, &rig, parallel).expect("a schedule");
+        Rig::read("rig.toml", &text).expect("a good rig")
+    }
+
+    fn scheduled(extra: &str, limit: &str, parallel: usize, plan: usize) -> Schedule {
+        let (plan, rig) = (&real_plans()[plan], rig(extra, limit));
+        let order = Order::of_tree(&Tree::new(plan).expect("a tree"));
+        let schedule = Schedule::plan(plan, &rig, &order, &Limits::at_most(parallel)).expect("a schedule");
         schedule.verify(plan, &rig).expect("a good schedule");
         schedule
     }
@@ -174,11 +176,10 @@ mod tests {
                 assert_eq!((back.from, back.to, back.duration), (there.to, there.from, there.duration));
                 assert!(step.after.iter().all(|other| *other < index));
             }
-            // Whatever waited is waited for, directly or not, and is over by then.
-            let after: Vec<_> = back.steps.iter().map(|step| step.after.clone()).collect();
+            back.verify_reversed(&real_plans()[plan], &rig("", "2 A")).expect("it is good backwards");
+            // Whatever waited is over by then.
             for (index, step) in forward.steps.iter().enumerate() {
                 for other in &step.after {
-                    assert!(reaches(&after, last - other, last - index));
                     assert!(back.steps[last - other].start >= back.steps[last - index].opened());
                 }
             }
@@ -212,9 +213,21 @@ mod tests {
     }
 
     #[test]
-    fn waits_that_others_imply_are_left_out_where_there_are_too_many() {
-        let after = [vec![], vec![0], vec![1], vec![], vec![], vec![0, 1, 2, 3, 4]];
-        assert_eq!(fewest(&after, 5), [2, 3, 4]);
-        assert_eq!(fewest(&after[..5], 2), [1]);
+    fn a_way_back_that_was_changed_is_refused() {
+        let plan = &real_plans()[1];
+        let back = scheduled("", "2 A", 1, 1).reversed().expect("servos alone");
+        let refusal = |change: &dyn Fn(&mut Schedule)| {
+            let mut changed = back.clone();
+            change(&mut changed);
+            changed.verify_reversed(plan, &rig("", "2 A")).expect_err("changed").to_string()
+        };
+        assert!(refusal(&|back| back.steps[2].after = vec![]).contains("order_crc64 should be"));
+        assert!(refusal(&|back| back.peak_current.0 += 1).contains("peak_current_ma should be"));
+        let swapped = refusal(&|back| {
+            back.steps.swap(3, 4);
+            back.order_crc64 = Fingerprint::of_order(&back.steps);
+        });
+        assert!(swapped.contains("after should be"), "{swapped}");
+        assert!(refusal(&|back| back.steps[1].opening_deg = 90).contains("from_opening_deg should be"));
     }
 }

@@ -5,7 +5,7 @@ use super::motion::{Cost, start_opening_deg};
 use super::{Fingerprint, MOST_AFTER, Milliamps, Millis, Schedule};
 use crate::rig::{Kind, Rig, RigError};
 use crate::tree::{Tree, TreeError};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use zygote_stacking::Plan;
 
 /// Why a schedule must not be run.
@@ -85,7 +85,8 @@ pub enum VerifyError {
 
 impl Schedule {
     /// Checks that this schedule is for this plan and rig, and safe to run on it as far as it says: every hinge
-    /// once, in the order of the tree, on its channel and with its settings, within the supply limit.
+    /// once, in the order of the tree or in one that was checked, on its channel and with its settings, within the supply
+    /// limit.
     ///
     /// # Errors
     /// [`VerifyError`] with the first thing that is wrong.
@@ -101,8 +102,15 @@ impl Schedule {
         whole("supply_limit_ma", limit, self.supply_limit)?;
         whole("number of steps", plan.hinges.len(), self.steps.len())?;
         let step_of_hinge = self.step_of_hinge(plan)?;
-        self.verify_order(plan, &step_of_hinge)?;
-        self.verify_settings(plan, rig)?;
+        self.verify_waiting()?;
+        let tree = Tree::new(plan)?;
+        // An order that was checked for collisions may differ from that of the tree; its number tells it from another.
+        if self.certificate.is_none() {
+            self.verify_tree_order(&tree, &step_of_hinge)?;
+        }
+        whole("order_crc64", Fingerprint::of_order(&self.steps), self.order_crc64)?;
+        self.verify_settings(plan, rig, &tree)?;
+        self.verify_turns()?;
         self.verify_load()
     }
 
@@ -141,8 +149,8 @@ impl Schedule {
         Ok(steps.into_iter().flatten().collect())
     }
 
-    /// S10: after the hinge before it in the tree, and after nothing that comes later.
-    fn verify_order(&self, plan: &Plan, step_of_hinge: &[usize]) -> Result<(), VerifyError> {
+    /// After nothing that comes later, and not before what it waits for is expected to be open.
+    fn verify_waiting(&self) -> Result<(), VerifyError> {
         for (index, step) in self.steps.iter().enumerate() {
             if step.after.len() > MOST_AFTER {
                 let most = format!("at most {MOST_AFTER} steps");
@@ -165,20 +173,39 @@ impl Schedule {
                 }
             }
         }
-        for branch in Tree::new(plan)?.branches() {
+        Ok(())
+    }
+
+    /// S10: after the hinge before it in the tree, itself or by way of other steps.
+    fn verify_tree_order(&self, tree: &Tree, step_of_hinge: &[usize]) -> Result<(), VerifyError> {
+        for branch in tree.branches() {
             let step = step_of_hinge[branch.hinge];
             let before = branch.before.map(|hinge| step_of_hinge[hinge]);
-            if before.is_some_and(|before| !self.steps[step].after.contains(&before)) {
-                let expected = format!("with step {}, the hinge before it", before.unwrap_or_default());
+            if let Some(before) = before.filter(|before| !self.waits_for(step, *before)) {
+                let expected = format!("with step {before}, the hinge before it");
                 return Err(self.refuse(step, "after", expected, format!("{:?}", self.steps[step].after)));
             }
         }
         Ok(())
     }
 
+    fn waits_for(&self, step: usize, before: usize) -> bool {
+        if self.steps[step].after.contains(&before) {
+            return true;
+        }
+        let (mut open, mut seen) = (vec![step], BTreeSet::new());
+        while let Some(other) = open.pop() {
+            // Steps wait for lower ones alone.
+            open.extend(
+                self.steps[other].after.iter().filter(|other| **other >= before && seen.insert(**other)),
+            );
+        }
+        seen.contains(&before)
+    }
+
     /// Channels, angles and motions are those of plan and rig, and no channel is used twice.
-    fn verify_settings(&self, plan: &Plan, rig: &Rig) -> Result<(), VerifyError> {
-        let fittings = rig.fit(plan.hinges.len())?;
+    fn verify_settings(&self, plan: &Plan, rig: &Rig, tree: &Tree) -> Result<(), VerifyError> {
+        let fittings = rig.fit_tree(tree)?;
         let mut users: BTreeMap<(usize, Kind, u16), usize> = BTreeMap::new();
         for (index, step) in self.steps.iter().enumerate() {
             let (hinge, fitting) = (&plan.hinges[step.hinge], &fittings[step.hinge]);
@@ -230,13 +257,38 @@ impl Schedule {
                 return Err(VerifyError::Current { time, drawn, limit: self.supply_limit });
             }
             let found = usize::try_from(motions).unwrap_or(0);
-            if found > self.parallel {
-                return Err(VerifyError::TooManyAtOnce { time, found, most: self.parallel });
+            if let Some(most) = self.parallel.filter(|most| found > *most) {
+                return Err(VerifyError::TooManyAtOnce { time, found, most });
             }
         }
         whole("peak_current_ma", Milliamps(u64::try_from(peak).unwrap_or(u64::MAX)), self.peak_current)?;
         let makespan = self.steps.iter().map(super::Step::opened).max().unwrap_or_default();
-        whole("makespan_ms", makespan, self.makespan)
+        whole("makespan_ms", makespan, self.makespan)?;
+        if self.lower_bound > makespan {
+            let (expected, found) =
+                (format!("at most makespan_ms, {makespan}"), self.lower_bound.to_string());
+            return Err(VerifyError::Whole { key: "lower_bound_ms", expected, found });
+        }
+        Ok(())
+    }
+
+    /// Of the servos of a node one at a time, where the schedule says so.
+    fn verify_turns(&self) -> Result<(), VerifyError> {
+        if !self.one_servo_a_node {
+            return Ok(());
+        }
+        let servos = self.steps.iter().enumerate().filter(|(_, step)| step.motion.kind() == Kind::Servo);
+        let mut servos: Vec<_> =
+            servos.map(|(index, step)| (step.node, step.start, step.opened(), index)).collect();
+        servos.sort_unstable();
+        for pair in servos.windows(2) {
+            let [(node, _, opened, before), (other_node, start, _, step)] = [pair[0], pair[1]];
+            if node == other_node && start < opened {
+                let expected = format!("at least {opened}, when the servo of step {before} has moved");
+                return Err(self.refuse(step, "start_ms", expected, start));
+            }
+        }
+        Ok(())
     }
 }
 

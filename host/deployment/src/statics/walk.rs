@@ -63,7 +63,7 @@ impl Statics {
     /// [`StaticsError`] if the rig doesn't suit the plan, or if the order isn't one.
     pub fn of(plan: &Plan, rig: &Rig, order: &[usize], support: Support) -> Result<Self, StaticsError> {
         let mass = rig.panel_mass(Millimetres(plan.panel_length_mm))?;
-        let fittings = rig.fit(plan.hinges.len())?;
+        let fittings = rig.fit_tree(&Tree::new(plan)?)?;
         let mut walk = Walk::new(plan, mass, DVec3::from_array(rig.gravity.direction), &fittings)?;
         let mut step_of = vec![None; plan.hinges.len()];
         let mut turning: Vec<Load> = Vec::with_capacity(order.len());

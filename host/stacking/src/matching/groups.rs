@@ -17,8 +17,12 @@ impl Groups {
     pub(super) fn new(piles: usize, pairs: impl Iterator<Item = ((usize, usize), bool)>) -> Self {
         let mut sets = Sets::new(piles);
         let mut all = BTreeSet::new();
+        // Borders tell of the same two piles many times in a row.
+        let mut last = None;
         for ((a, b), matches) in pairs {
-            all.insert((a, b));
+            if last.replace((a, b)) != Some((a, b)) {
+                all.insert((a, b));
+            }
             if matches {
                 sets.join(a, b);
             }

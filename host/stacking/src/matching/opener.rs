@@ -35,7 +35,7 @@ pub(crate) struct Opener<'a> {
     /// Of every panel its place in its ring.
     place: Vec<usize>,
     openings: Vec<Option<Opening>>,
-    /// Of every panel of an opened pile its height, and how it lies.
+    /// Of every panel at the border of an opened pile its height, and how it lies.
     settled: Vec<(usize, Facing)>,
 }
 
@@ -191,11 +191,13 @@ impl<'a> Opener<'a> {
         Matched { piles, facing, turns, cells: self.cells.to_vec() }
     }
 
+    /// Opens a pile so. Only its border is looked at by others.
     fn settle(&mut self, pile: usize, opening: Opening) {
+        let Opening { way, start, turn } = opening;
         let frame = &self.frames[pile];
-        for (height, panel) in frame.pile(opening).into_iter().enumerate() {
-            let facing = frame.facing(opening.way, opening.start, height).turned(opening.turn);
-            self.settled[panel] = (height, facing);
+        for BorderEdge { panel, .. } in &self.borders[pile] {
+            let height = (frame.place(way, self.place[*panel]) + frame.height() - start) % frame.height();
+            self.settled[*panel] = (height, frame.facing(way, start, height).turned(turn));
         }
         self.openings[pile] = Some(opening);
     }

@@ -140,7 +140,7 @@ fn rounded(distance: f64) -> f64 {
 }
 
 /// A coordinate to about a hundredth of a voxel.
-fn rounded_at(c: f64, voxel_size: f64) -> f64 {
+pub(super) fn rounded_at(c: f64, voxel_size: f64) -> f64 {
     let scale = 10_f64.powf((100.0 / voxel_size).log10().ceil().clamp(-12.0, 12.0));
     (c * scale).round() / scale
 }

@@ -25,7 +25,7 @@ pub(super) const INSIDE: f64 = 0.5;
 /// A winding number that is so near to the limit decides nothing for sure.
 const UNSURE: f64 = 0.25;
 
-/// Voxels whose centres are inside.
+/// Voxels whose centres are inside, maybe none.
 pub(super) struct Filled {
     pub(super) voxels: Voxels,
     /// Of a mesh with open edges: voxels whose centre may as well be on the other side, over voxels inside.
@@ -35,25 +35,24 @@ pub(super) struct Filled {
 /// Fills the mesh with voxels of a given edge, the first one in the least corner of the mesh's box.
 ///
 /// # Errors
-/// A size that is no length, more voxels than fit, or no centre inside.
+/// A size that is no length, more voxels than fit.
 pub(super) fn fill(mesh: &Mesh, size: f64) -> Result<Filled, ModelProblem> {
     if !(size.is_finite() && size > 0.0) {
         return Err(ModelProblem::VoxelSize { size });
     }
     let Mesh { triangles, least, extent, holes, .. } = mesh;
-    let mut rows = Rows::new(extent.map(|length| length / size))?;
+    let mut rows = Rows::new(extent.map(|length| length / size)).map_err(|found| ModelProblem::TooFine {
+        size,
+        found,
+        limit: VOXEL_LIMIT as u128,
+    })?;
     let cones = holes.iter().flat_map(|hole| &hole.cone);
     for corners in triangles.iter().chain(cones) {
         rows.cross(corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - least[axis]) / size)));
     }
     let at = |centre: Corner| [0, 1, 2].map(|axis| least[axis] + centre[axis] * size);
     let Filled { voxels, unsure_share } = rows.filled(holes, at);
-    if voxels.any() {
-        Ok(Filled { voxels: voxels.padded(MARGIN), unsure_share })
-    } else {
-        let [x, y, z] = extent;
-        Err(ModelProblem::TooCoarse { size, bounds: format!("{x} x {y} x {z}") })
-    }
+    Ok(Filled { voxels: voxels.padded(MARGIN), unsure_share })
 }
 
 /// How many whole numbers and a half lie below a length, so how many centres come before it; at most `limit`.
@@ -64,11 +63,12 @@ fn centres_before(length: f64, limit: usize) -> usize {
 }
 
 impl Rows {
-    fn new(extent: [f64; 3]) -> Result<Self, ModelProblem> {
+    /// On failure gives the number of voxels, where they are too many.
+    fn new(extent: [f64; 3]) -> Result<Self, u128> {
         let sides = extent.map(|length| centres_before(length.ceil().max(1.0), VOXEL_LIMIT + 1));
         let found = sides.iter().map(|side| *side as u128).product();
         if found > VOXEL_LIMIT as u128 {
-            return Err(ModelProblem::TooManyVoxels { found, limit: VOXEL_LIMIT as u128 });
+            return Err(found);
         }
         Ok(Self { sides, rise: vec![0; sides.iter().product()] })
     }
@@ -205,11 +205,10 @@ mod tests {
     }
 
     #[test]
-    fn sizes_that_are_no_lengths_or_too_coarse_or_too_fine_are_refused() {
+    fn sizes_that_are_no_lengths_or_too_fine_are_refused() {
         let mesh = cuboid([0.0; 3], [1.0; 3]);
         assert!(matches!(fill(mesh.clone(), 0.0), Err(ModelProblem::VoxelSize { .. })));
         assert!(matches!(fill(mesh.clone(), f64::NAN), Err(ModelProblem::VoxelSize { .. })));
-        assert!(matches!(fill(mesh.clone(), 3.0), Err(ModelProblem::TooCoarse { .. })));
-        assert!(matches!(fill(mesh.clone(), 1e-9), Err(ModelProblem::TooManyVoxels { .. })));
+        assert!(matches!(fill(mesh.clone(), 1e-9), Err(ModelProblem::TooFine { .. })));
     }
 }

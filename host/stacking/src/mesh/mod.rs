@@ -1,13 +1,16 @@
 //! Triangle meshes and the voxels that stand for them: repair, filling, one piece, number of panels, distance. The readers
 //! call it.
 
+mod closed;
 mod distance;
 mod edit;
 mod fill;
+mod indexed;
 mod nearest;
 mod one_piece;
 mod orient;
 mod panels;
+mod patch;
 mod repair;
 mod simple;
 mod thin;
@@ -17,11 +20,11 @@ pub use distance::Distance;
 pub use repair::Repair;
 
 use crate::readers::{ModelProblem, Resolution};
-use crate::square::Quad;
+use crate::square::{Point, Quad};
 use crate::voxels::Voxels;
+use closed::{Repaired, Rest};
 use fill::Filled;
 use nearest::{Facet, Nearest};
-use repair::{Repaired, Rest};
 use winding::Hole;
 
 /// A corner, in units of the mesh.
@@ -35,6 +38,9 @@ const UNSURE_SHARE: f64 = 0.12;
 
 /// That share is judged with so many voxels along the longest side of the box, whatever the size asked for.
 const JUDGED_AT: f64 = 24.0;
+
+/// A mesh without a voxel's centre inside is thickened when its box has a side of at least so many voxels.
+const LEAST_THIN: f64 = 2.0;
 
 /// A mesh that bounds a solid, and what was done to it so far.
 pub(crate) struct Mesh {
@@ -73,7 +79,7 @@ impl Mesh {
     /// # Errors
     /// Coordinates that are no numbers, a mesh that is not closed and doesn't tell inside from outside.
     pub(crate) fn new(triangles: Vec<Triangle>) -> Result<Self, ModelProblem> {
-        let Repaired { triangles, repairs, rest } = repair::closed(triangles)?;
+        let Repaired { triangles, repairs, rest } = closed::closed(triangles)?;
         let all = |axis: usize| triangles.iter().flatten().map(move |corner| corner[axis]);
         let least = [0, 1, 2].map(|axis| all(axis).fold(f64::INFINITY, f64::min));
         let extent = [0, 1, 2].map(|axis| all(axis).fold(f64::NEG_INFINITY, f64::max) - least[axis]);
@@ -81,8 +87,8 @@ impl Mesh {
         let mut mesh = Self { triangles, least, extent, nearest, repairs, open_edges: 0, holes: Vec::new() };
         if let Some(Rest { edges, holes, refusal }) = rest {
             (mesh.open_edges, mesh.holes) = (edges, holes);
-            let longest = extent.into_iter().fold(0.0, f64::max);
-            match fill::fill(&mesh, longest / JUDGED_AT) {
+            match fill::fill(&mesh, mesh.longest() / JUDGED_AT) {
+                Ok(filled) if !filled.voxels.any() => return Err(refusal),
                 Ok(filled) if filled.unsure_share <= UNSURE_SHARE => {}
                 Ok(filled) => {
                     let (percent, most) = (percent(filled.unsure_share), percent(UNSURE_SHARE));
@@ -120,7 +126,10 @@ impl Mesh {
         }
         let mut thick = voxels.clone();
         let put = thin::thicken(&mut thick, self, voxel_size);
+        // What is smaller than two voxels all round is no shape at this size.
+        let is_shape = voxels.any() || self.longest() >= LEAST_THIN * voxel_size;
         if put > 0
+            && is_shape
             && let Ok(more) = one_piece::make(&mut thick, self, voxel_size)
         {
             repairs.push(Repair::Thickened { voxels: put });
@@ -129,6 +138,10 @@ impl Mesh {
         }
         // Nothing is thin, or something thin hangs on nothing and can only be left out.
         let mut voxels = voxels;
+        if !voxels.any() {
+            let [x, y, z] = self.extent;
+            return Err(ModelProblem::TooCoarse { size: voxel_size, bounds: format!("{x} x {y} x {z}") });
+        }
         repairs.extend(one_piece::make(&mut voxels, self, voxel_size)?);
         Ok(Solid { voxels, voxel_size, repairs })
     }
@@ -155,6 +168,18 @@ impl Mesh {
         let winding: i32 = row.chain(cones).map(|corners| fill::passed_beyond(corners, point)).sum();
         let open = winding::share_of(&self.holes, point);
         (f64::from(winding) - open).abs() > fill::INSIDE
+    }
+
+    /// The middle of a voxel, as a message says it.
+    fn place_of(&self, voxel: Point, voxel_size: f64) -> String {
+        let at = |axis: usize| self.least[axis] + (f64::from(voxel[axis]) + 0.5) * voxel_size;
+        let [x, y, z] = [0, 1, 2].map(|axis| distance::rounded_at(at(axis), voxel_size));
+        format!("({x}, {y}, {z})")
+    }
+
+    /// The longest side of the box.
+    fn longest(&self) -> f64 {
+        self.extent.into_iter().fold(0.0, f64::max)
     }
 
     fn area(&self) -> f64 {

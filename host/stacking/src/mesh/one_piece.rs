@@ -5,7 +5,7 @@
 
 use super::{Mesh, Repair};
 use crate::readers::ModelProblem;
-use crate::square::{At, Point};
+use crate::square::Point;
 use crate::voxels::Voxels;
 use std::collections::VecDeque;
 
@@ -50,7 +50,7 @@ pub(super) fn make(voxels: &mut Voxels, mesh: &Mesh, voxel_size: f64) -> Result<
         let (more, voxels) = fill_cavities(voxels);
         (cavities, filled) = (cavities + more, filled + voxels);
     }
-    let dropped = drop_crumbs(voxels, voxel_size)?;
+    let dropped = drop_crumbs(voxels, mesh, voxel_size)?;
     if cavities > 0 {
         repairs.push(Repair::Filled { cavities, voxels: filled });
     }
@@ -194,7 +194,7 @@ fn join(voxels: &mut Voxels, mesh: &Mesh, voxel_size: f64) -> (usize, usize) {
 }
 
 /// Drops all pieces but the largest, where they are crumbs.
-fn drop_crumbs(voxels: &mut Voxels, voxel_size: f64) -> Result<Option<Repair>, ModelProblem> {
+fn drop_crumbs(voxels: &mut Voxels, mesh: &Mesh, voxel_size: f64) -> Result<Option<Repair>, ModelProblem> {
     let (piece, list) = pieces(voxels);
     if list.len() < 2 {
         return Ok(None);
@@ -205,7 +205,9 @@ fn drop_crumbs(voxels: &mut Voxels, voxel_size: f64) -> Result<Option<Repair>, M
     if crumbs as f64 > CRUMB_SHARE * total as f64 {
         let shown = list.iter().take(PIECES_SHOWN);
         let mut told: Vec<String> = shown
-            .map(|(first, size)| format!("{size} voxels with the one at {}", At(voxels.at(*first))))
+            .map(|(first, size)| {
+                format!("{size} voxels with the one at {}", mesh.place_of(voxels.at(*first), voxel_size))
+            })
             .collect();
         if list.len() > PIECES_SHOWN {
             told.push("...".into());

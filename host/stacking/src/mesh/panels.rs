@@ -104,6 +104,10 @@ impl Search<'_> {
                     size = rounded(size * ASIDE);
                     self.refused = Some(problem);
                 }
+                Err(problem @ ModelProblem::TooFine { .. }) => {
+                    self.refused = Some(problem);
+                    break;
+                }
                 Err(problem) => return Err(problem),
             }
         }

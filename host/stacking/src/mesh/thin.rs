@@ -28,6 +28,8 @@ pub(super) fn thicken(voxels: &mut Voxels, mesh: &Mesh, voxel_size: f64) -> usiz
     };
     let near: Vec<(Point, isize)> = around(1).map(|step| (step, voxels.stride(step))).collect();
     let (mut passed, mut lost) = (BTreeSet::new(), BTreeSet::new());
+    // Both sides of a plate without thickness are in one layer.
+    let last = mesh.extent.map(|length| ((length / voxel_size).ceil() - 1.0).max(0.0));
     for triangle in mesh.in_voxels(voxel_size) {
         let Some(normal) = normal(&triangle) else { continue };
         for point in distance::points_on(&triangle, SPACING) {
@@ -39,7 +41,7 @@ pub(super) fn thicken(voxels: &mut Voxels, mesh: &Mesh, voxel_size: f64) -> usiz
                 clippy::cast_possible_truncation,
                 reason = "within the box, whose sides are small numbers"
             )]
-            let voxel: Point = inner.map(|c| c.floor() as i32);
+            let voxel: Point = [0, 1, 2].map(|axis| inner[axis].clamp(0.0, last[axis]).floor() as i32);
             let number = voxels.number(voxel);
             if voxels.solid(number) {
                 continue;

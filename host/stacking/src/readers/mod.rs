@@ -123,7 +123,7 @@ fn read(path: &Path, resolution: Option<Resolution>) -> Result<Model, ModelProbl
                 Surface::new(voxel_text::read(text(&bytes(path)?)?)?.boundary(), Vec::new())?
             }
             Format::MagicaVoxel => Surface::new(magica_voxel::read(&bytes(path)?)?.boundary(), Vec::new())?,
-            Format::Obj => obj::quads(text(&bytes(path)?)?)?,
+            Format::Obj => obj::quads(&mesh_text(path)?)?,
             Format::Stl | Format::Ply | Format::Off | Format::Gltf => {
                 return Err(ModelProblem::VoxelSizeMissing);
             }
@@ -132,10 +132,10 @@ fn read(path: &Path, resolution: Option<Resolution>) -> Result<Model, ModelProbl
     };
     let triangles: Vec<Triangle> = match format {
         Format::VoxelText | Format::MagicaVoxel => return Err(ModelProblem::VoxelSizeUnused),
-        Format::Obj => obj::mesh(text(&bytes(path)?)?)?,
+        Format::Obj => obj::mesh(&mesh_text(path)?)?,
         Format::Stl => stl::read(&bytes(path)?)?,
         Format::Ply => ply::read(&bytes(path)?)?,
-        Format::Off => off::read(text(&bytes(path)?)?)?,
+        Format::Off => off::read(&mesh_text(path)?)?,
         Format::Gltf => gltf::read(&bytes(path)?)?,
     };
     let mesh = Mesh::new(triangles)?;
@@ -144,6 +144,11 @@ fn read(path: &Path, resolution: Option<Resolution>) -> Result<Model, ModelProbl
     let distance = Some(mesh.distance_of(&solid, surface.quads()));
     let Solid { voxel_size, repairs, .. } = solid;
     Ok(Model { voxel_size: Some(voxel_size), distance, repairs, ..Model::new(name, surface)? })
+}
+
+/// What a mesh says in words, names and comments, is in any encoding and counts for nothing.
+fn mesh_text(path: &Path) -> Result<String, ModelProblem> {
+    Ok(String::from_utf8_lossy(&bytes(path)?).into_owned())
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, ModelProblem> {

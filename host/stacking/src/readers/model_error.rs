@@ -30,7 +30,9 @@ pub enum ModelProblem {
     )]
     VoxelSizeMissing,
     /// A resolution for a file that is on the lattice already.
-    #[error("a voxel size or a number of panels is for meshes only: this format has voxels already")]
+    #[error(
+        "a voxel size or a number of panels is for meshes only: this format has voxels already; leave it out"
+    )]
     VoxelSizeUnused,
     /// A number of panels that no solid of voxels has.
     #[error("{wanted} panels: no solid of voxels has so many; the nearest numbers that one has: {nearest}")]
@@ -115,6 +117,19 @@ pub enum ModelProblem {
         /// The limit.
         limit: u128,
     },
+    /// More voxels than the lattice has room for, of a size that was given or searched.
+    #[error(
+        "with voxels of size {size} the box of the mesh has {found}, expected at most {limit}: \
+         expected a larger size, or fewer panels"
+    )]
+    TooFine {
+        /// The voxel size.
+        size: f64,
+        /// Voxels in the box.
+        found: u128,
+        /// The limit.
+        limit: u128,
+    },
     /// A line of an OBJ file that can't be read.
     #[error("line {line}: {found:?}, expected {expected}")]
     BadLine {
@@ -127,7 +142,8 @@ pub enum ModelProblem {
     },
     /// A vertex between the lattice points.
     #[error(
-        "line {line}: vertex coordinate {found}, expected a whole number: vertices lie on the integer lattice"
+        "line {line}: vertex coordinate {found}, expected a whole number: faces are taken for panels on the integer lattice; \
+         to cut a mesh into voxels give --voxel SIZE or --panels N"
     )]
     OffLattice {
         /// The line.
@@ -137,13 +153,21 @@ pub enum ModelProblem {
     },
     /// A triangle, or another polygon.
     #[error(
-        "line {line}: a face with {found} corners, expected 4: quads only, or --voxel SIZE to cut a mesh into voxels"
+        "line {line}: a face with {found} corners, expected 4: faces are taken for panels; \
+         to cut a mesh into voxels give --voxel SIZE or --panels N"
     )]
     NotAQuad {
         /// The line.
         line: usize,
         /// Number of corners.
         found: usize,
+    },
+    /// A face that is no panel.
+    #[error("{problem}; to cut a mesh into voxels give --voxel SIZE or --panels N")]
+    NotAPanel {
+        /// What is wrong with it.
+        #[source]
+        problem: SurfaceError,
     },
     /// A corner that is no vertex.
     #[error("line {line}: vertex number {found:?}, expected a vertex defined above: 1 to {vertices}")]
@@ -229,7 +253,8 @@ pub enum ModelProblem {
     /// A mesh with holes, or with triangles turned inside out.
     #[error(
         "the mesh is not closed: {open} open edges, {unlike} edges between triangles of unlike orientation; \
-         the first from {from} to {to}; expected every edge to be passed once in each direction"
+         the first from {from} to {to}; expected every edge to be passed once in each direction; \
+         close its holes, or give an open sheet by its panels, unit squares on the lattice (.obj)"
     )]
     NotClosed {
         /// Edges that belong to one triangle only.
@@ -244,7 +269,7 @@ pub enum ModelProblem {
     /// A mesh with holes so large that it doesn't tell inside from outside.
     #[error(
         "{open}; it doesn't tell inside from outside either: the winding numbers of {percent} % as many voxels as are inside \
-         lie between 1/4 and 3/4, expected at most {most} %; close its holes"
+         lie between 1/4 and 3/4, expected at most {most} %"
     )]
     Undecided {
         /// What is open.

@@ -5,10 +5,13 @@ use super::ModelProblem;
 use super::polygons::{Polygons, number};
 use crate::mesh::{Corner, Triangle};
 use crate::square::{Point, Quad};
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceError};
 
 /// Statements that say nothing about the geometry of faces.
 const IGNORED: [&str; 11] = ["vn", "vt", "vp", "o", "g", "s", "usemtl", "mtllib", "mg", "l", "p"];
+
+/// So many characters of a line that can't be read are shown.
+const LINE_SHOWN: usize = 60;
 
 /// Reads a quad mesh on the integer lattice.
 ///
@@ -36,7 +39,10 @@ pub(super) fn quads(text: &str) -> Result<Surface, ModelProblem> {
     if quads.is_empty() {
         return Err(ModelProblem::Empty { expected: "faces ('f' lines)" });
     }
-    Ok(Surface::new(quads, lines)?)
+    Surface::new(quads, lines).map_err(|problem| match problem {
+        SurfaceError::NotUnitSquare { .. } => ModelProblem::NotAPanel { problem },
+        problem => problem.into(),
+    })
 }
 
 /// Reads a mesh of any polygons as triangles.
@@ -71,10 +77,15 @@ fn for_each_statement(
     text: &str,
     mut take: impl FnMut(usize, Statement<'_>) -> Result<(), ModelProblem>,
 ) -> Result<(), ModelProblem> {
-    for (index, whole) in text.lines().enumerate() {
+    let mut lines = text.lines().enumerate();
+    while let Some((index, whole)) = lines.next() {
         let line = index + 1;
-        let statement = whole.split('#').next().unwrap_or_default();
-        let words: Vec<&str> = statement.split_whitespace().collect();
+        let mut words: Vec<&str> = words_of(whole).collect();
+        // A backslash at its end makes a line go on in the next.
+        while words.last() == Some(&"\\") {
+            words.pop();
+            words.extend(lines.next().into_iter().flat_map(|(_, more)| words_of(more)));
+        }
         match words.split_first() {
             None => {}
             Some((&"v", words)) => {
@@ -99,8 +110,16 @@ fn for_each_statement(
     Ok(())
 }
 
+/// The words of a line, a backslash at its end being one of its own.
+fn words_of(line: &str) -> impl Iterator<Item = &str> {
+    let statement = line.split('#').next().unwrap_or_default().trim_end();
+    let (statement, goes_on) =
+        statement.strip_suffix('\\').map_or((statement, None), |line| (line, Some("\\")));
+    statement.split_whitespace().chain(goes_on)
+}
+
 fn bad_line(line: usize, whole: &str, expected: &'static str) -> ModelProblem {
-    ModelProblem::BadLine { line, found: whole.trim().to_string(), expected }
+    ModelProblem::BadLine { line, found: whole.trim().chars().take(LINE_SHOWN).collect(), expected }
 }
 
 /// The lattice point of a vertex, far enough from the limits of 32 bits to be added to.
@@ -155,12 +174,16 @@ mod tests {
     fn a_triangle_is_refused_with_its_line_and_the_way_out() {
         assert_eq!(
             message("f 1 2 3\n"),
-            "line 5: a face with 3 corners, expected 4: quads only, or --voxel SIZE to cut a mesh into voxels"
+            "line 5: a face with 3 corners, expected 4: faces are taken for panels; \
+             to cut a mesh into voxels give --voxel SIZE or --panels N"
         );
     }
 
     #[test]
-    fn a_vertex_off_the_lattice_is_refused_with_its_line() {
+    fn a_vertex_off_the_lattice_is_refused_with_its_line_and_the_way_out() {
+        assert!(
+            message("v 0.5 0 0\n").ends_with("to cut a mesh into voxels give --voxel SIZE or --panels N")
+        );
         assert!(message("v 0.5 0 0\n").starts_with("line 5: vertex coordinate 0.5, expected a whole number"));
         assert!(message("v 1e300 0 0\n").starts_with("line 5"));
         assert!(message("v nan 0 0\n").starts_with("line 5"));
@@ -170,6 +193,15 @@ mod tests {
     fn a_face_that_is_no_unit_square_is_refused_with_its_line() {
         let found = message("f 1 3 2 4\n");
         assert!(found.starts_with("the face on line 5: corners (0, 0, 0) (1, 1, 0)"), "{found}");
+        assert!(found.ends_with("to cut a mesh into voxels give --voxel SIZE or --panels N"), "{found}");
+    }
+
+    #[test]
+    fn a_line_that_ends_with_a_backslash_goes_on_in_the_next() {
+        let plain = quads(&format!("{CORNERS}f 1 2 3 4\n")).unwrap();
+        let parted = quads(&format!("{CORNERS}f 1 2 \\\n  3\\\n4\n")).unwrap();
+        assert_eq!(plain.quads(), parted.quads());
+        assert!(message("f 1 2 \\").starts_with("line 5: a face with 2 corners"));
     }
 
     #[test]

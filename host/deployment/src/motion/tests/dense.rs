@@ -26,7 +26,7 @@ fn corners(pose: &DAffine3, plates: Thickness) -> Vec<DVec3> {
 }
 
 /// Whether two boxes meet, by the projections of their corners on the fifteen directions.
-fn meet(a: &DAffine3, b: &DAffine3, plates: Thickness) -> bool {
+pub(super) fn meet(a: &DAffine3, b: &DAffine3, plates: Thickness) -> bool {
     let centre = |pose: &DAffine3| pose.transform_point3(DVec3::new(0.5, 0.5, 0.0));
     if centre(a).distance(centre(b)) > 2_f64.sqrt() + 2.0 * plates.thickness {
         return false;
@@ -82,7 +82,7 @@ fn solid(seed: &mut u64, cubes: usize) -> Vec<[i32; 3]> {
 }
 
 /// Some plan of a random solid in so many piles; none where the planner finds none.
-fn random_plan(seed: u64, piles: usize) -> Option<Plan> {
+pub(super) fn random_plan(seed: u64, piles: usize) -> Option<Plan> {
     let mut state = seed;
     let cubes = 2 + below(&mut state, 4);
     let quads = boundary(&solid(&mut state, cubes));

@@ -1,7 +1,8 @@
-//! Poses, extents, verdicts. What must collide where is worked out by hand in `by_hand`; `dense` compares with sampling.
+//! Poses, extents, verdicts. What must collide where is worked out by hand in `by_hand`; `dense` compares with sampling; `waits` has what may move at once.
 
 mod by_hand;
 mod dense;
+mod waits;
 
 use super::{Body, Cuboid, Interval, Linkage, Motion, Options, OrderError, Thickness, Turn, check};
 use crate::testing::real_plans;

@@ -1,0 +1,179 @@
+//! The search for an order in which all hinges open without a collision: from the root outwards first, then from the end.
+
+use super::backward::Backward;
+use super::forward::{Forward, PREFERENCES};
+use super::state::{Ground, Motion};
+use super::thickness::{MotionError, Thickness};
+use crate::tree::Tree;
+use std::collections::BTreeSet;
+use zygote_stacking::{HingeKind, Plan};
+
+/// With more panels than this only orders from the root outwards are tried: a search from the end looks at all panels again
+/// and again.
+const MOST_BACKWARD: usize = 1_000;
+
+/// How long is searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effort {
+    /// Roots tried beside the plan's own.
+    pub other_roots: usize,
+    /// Searches from the end, each with another seed.
+    pub backward: u64,
+    /// Hinges looked at in each of them.
+    pub looks: usize,
+}
+
+impl Default for Effort {
+    /// The plan's root alone, and some seconds for a hundred panels.
+    fn default() -> Self {
+        Self { other_roots: 0, backward: 4, looks: 15_000 }
+    }
+}
+
+/// Which orders a search found its own among.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// From the root outwards: each hinge after the one before it.
+    FromRoot,
+    /// Any: hinges farther out may open first.
+    Any,
+}
+
+/// The best order that was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Found {
+    /// The panel that stays fixed.
+    pub root: usize,
+    /// The hinges.
+    pub hinges: Vec<usize>,
+    /// Which orders it is one of.
+    pub scope: Scope,
+    /// How many hinges something blocks all the same.
+    pub blocked: usize,
+    /// Orders begun.
+    pub attempts: usize,
+}
+
+/// Searches for an order without a collision; where none is found, gives the one with the fewest hinges that something
+/// blocks. `told` hears before every attempt how many were made, and how many hinges the best one leaves blocked.
+///
+/// # Errors
+/// See [`Motion::new`].
+pub fn search(
+    plan: &Plan,
+    thickness: Thickness,
+    ground: Option<Ground>,
+    effort: &Effort,
+    told: &mut dyn FnMut(usize, Option<usize>),
+) -> Result<Found, MotionError> {
+    let mut best: Option<Found> = None;
+    let mut attempts = 0;
+    for root in roots(plan, effort.other_roots) {
+        let rooted = Plan { root, ..plan.clone() };
+        let tree = Tree::new(&rooted)?;
+        let motion = Motion::new(&rooted, thickness, ground)?;
+        let forward = Forward::new(&rooted, &tree);
+        for preference in PREFERENCES {
+            let most = best.as_ref().map(|found| found.blocked);
+            told(attempts, most);
+            attempts += 1;
+            if let Some((hinges, blocked)) = forward.run(motion.clone(), preference, most) {
+                let found = Found { root, hinges, scope: Scope::FromRoot, blocked, attempts };
+                if blocked == 0 {
+                    return Ok(found);
+                }
+                best = Some(found);
+            }
+        }
+    }
+    if plan.panels() <= MOST_BACKWARD {
+        let tree = Tree::new(plan)?;
+        let motion = Motion::new(plan, thickness, ground)?;
+        for seed in 0..effort.backward {
+            told(attempts, best.as_ref().map(|found| found.blocked));
+            attempts += 1;
+            if let Some(hinges) = Backward::new(&tree, motion.clone(), seed).run(effort.looks) {
+                return Ok(Found { root: plan.root, hinges, scope: Scope::Any, blocked: 0, attempts });
+            }
+        }
+    }
+    let none = Found { root: plan.root, hinges: Vec::new(), scope: Scope::FromRoot, blocked: 0, attempts };
+    Ok(Found { attempts, ..best.unwrap_or(none) })
+}
+
+/// The plan's root, and some of the panels from which other orders go out: ends of bridges, and middles of piles.
+fn roots(plan: &Plan, others: usize) -> Vec<usize> {
+    let bridges = plan.hinges.iter().filter(|hinge| hinge.kind == HingeKind::Bridge);
+    let middles = plan.piles.iter().filter_map(|pile| pile.panels.get(pile.panels.len() / 2).copied());
+    let all: BTreeSet<usize> =
+        bridges.flat_map(|hinge| hinge.panels).chain(middles).filter(|panel| *panel != plan.root).collect();
+    let step = all.len().div_ceil(others.max(1)).max(1);
+    [plan.root].into_iter().chain(all.into_iter().step_by(step).take(others)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Options, check};
+    use std::path::Path;
+    use zygote_stacking::{Bridges, Model, Request, plan};
+
+    fn planned(name: &str, request: &Request) -> Plan {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../models/{name}.txt"));
+        plan(&Model::read(&path, None).expect("a model"), request).expect("a plan")
+    }
+
+    fn assert_free(plan: &Plan, thickness: Thickness, effort: &Effort) -> Found {
+        let found = search(plan, thickness, None, effort, &mut |_, _| {}).expect("plates");
+        assert_eq!(found.blocked, 0, "{}", plan.source.model);
+        let plan = Plan { root: found.root, ..plan.clone() };
+        let report = check(&plan, &found.hinges, thickness, &Options::default()).expect("plates");
+        assert!(report.is_free(), "{}: {:?}", plan.source.model, report.collisions.first());
+        found
+    }
+
+    #[test]
+    fn without_thickness_piles_around_a_base_open_freely_from_the_root() {
+        for name in ["i14", "l14", "fish92", "vehicle92", "airplane92", "fish144"] {
+            for piles in [1, 2, 4] {
+                let request = Request { piles, bridges: Bridges::Base, ..Request::default() };
+                if name.ends_with("14") && piles == 4 {
+                    continue;
+                }
+                let plan = planned(name, &request);
+                let found = assert_free(&plan, Thickness::ideal(&plan), &Effort::default());
+                assert_eq!((found.scope, found.root), (Scope::FromRoot, plan.root), "{name} K={piles}");
+            }
+        }
+    }
+
+    #[test]
+    fn small_shapes_open_freely_with_panels_a_twentieth_thick() {
+        for (name, seed) in [("i14", 1), ("l14", 1)] {
+            let request =
+                Request { piles: 2, thickness: 0.05, seed, bridges: Bridges::Least, ..Request::default() };
+            let plan = planned(name, &request);
+            assert_free(&plan, Thickness::of(&plan), &Effort { backward: 8, ..Effort::default() });
+        }
+    }
+
+    #[test]
+    fn the_same_search_finds_the_same_order() {
+        let plan = planned("l14", &Request { piles: 2, thickness: 0.05, ..Request::default() });
+        let run = || search(&plan, Thickness::of(&plan), None, &Effort::default(), &mut |_, _| {});
+        assert_eq!(run(), run());
+    }
+
+    #[test]
+    fn where_no_order_is_free_the_least_bad_one_opens_every_hinge() {
+        // A table under a shape that grows downwards.
+        let plan = planned("i14", &Request::default());
+        let effort = Effort { backward: 1, looks: 200, ..Effort::default() };
+        let ground = Some(Ground { normal: glam::DVec3::X });
+        let found = search(&plan, Thickness::ideal(&plan), ground, &effort, &mut |_, _| {}).expect("plates");
+        assert!(found.blocked > 0);
+        let mut hinges = found.hinges;
+        hinges.sort_unstable();
+        assert_eq!(hinges, (0..plan.hinges.len()).collect::<Vec<_>>());
+    }
+}
