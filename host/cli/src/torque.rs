@@ -124,6 +124,9 @@ fn summary(statics: &Statics, overloads: &[Load]) {
     if worst.is_empty() {
         return;
     }
+    if let Some(mass) = statics.bearable_mass() {
+        say(format_args!("mass: these hinges bear panels of at most {mass:.3}"));
+    }
     say("the worst loads, by torque over rating:");
     say(format_args!(
         "{:>7}  {:<8}{:>6}{:>10}{:>8}{:>13}{:>13}{:>9}",
@@ -192,6 +195,7 @@ fn json(rig: &Rig, statics: &Statics, order: &str, overloads: &[Load]) -> serde_
         "order": order,
         "steps": statics.turning.len(),
         "panel_mass_g": statics.panel_mass.0,
+        "bearable_panel_mass_g": statics.bearable_mass().map(|mass| mass.0),
         "gravity": rig.gravity.direction,
         "worst": worst.iter().take(SHOWN).map(load).collect::<Vec<_>>(),
         "overloads": overloads.iter().map(load).collect::<Vec<_>>(),

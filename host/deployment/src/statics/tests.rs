@@ -52,6 +52,7 @@ fn the_first_hinge_of_a_cantilever_holds_most_when_the_last_panel_is_level() {
     near(first.torque.0.abs(), arms * 0.1 * NEWTONS);
     assert_eq!((first.hinge, first.step, first.role), (order[0], 2, Role::Holding));
     near(first.factor(), arms * 0.1 * NEWTONS / 0.034);
+    near(statics.bearable_mass().expect("a load").0, 12.0 / first.factor());
     // The second one holds two panels: 1/2 and 1 to the last hinge.
     near(statics.holding[1].torque.0.abs(), (arms - 2.5) * 0.1 * NEWTONS);
     assert!(first.torque.0 < 0.0, "flat, gravity opens it further");

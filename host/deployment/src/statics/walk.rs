@@ -96,6 +96,12 @@ impl Statics {
         self.worst_first().into_iter().take_while(Load::is_overload).collect()
     }
 
+    /// With panels of at most this mass no hinge is overloaded: torque goes with the mass. `None` where nothing has an arm.
+    pub fn bearable_mass(&self) -> Option<Grams> {
+        let worst = self.worst_first().first().map(Load::factor).filter(|factor| *factor > 0.0)?;
+        Some(Grams(self.panel_mass.0 / worst))
+    }
+
     /// All loads, the worst first.
     pub fn worst_first(&self) -> Vec<Load> {
         let mut loads: Vec<_> = self.turning.iter().chain(&self.holding).copied().collect();
