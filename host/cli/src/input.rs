@@ -28,24 +28,35 @@ pub(crate) fn schedule(
     rig: &Rig,
     beside: Option<&Path>,
 ) -> Result<Schedule, Failure> {
-    let (name, schedule) = match (beside, &plan.schedule) {
+    let (name, schedule) = unverified_schedule(plan_path, plan, beside)?;
+    schedule.verify(plan, rig).context(name).or_bad_input()?;
+    Ok(schedule)
+}
+
+/// The same for verbs that know no rig, with the name of its file: nothing is verified.
+pub(crate) fn unverified_schedule(
+    plan_path: &Path,
+    plan: &Plan,
+    beside: Option<&Path>,
+) -> Result<(String, Schedule), Failure> {
+    match (beside, &plan.schedule) {
         (Some(path), _) => {
             let name = path.display().to_string();
             let text =
                 fs::read_to_string(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
-            (name.clone(), Schedule::from_text(&text).context(name).or_bad_input()?)
+            let schedule = Schedule::from_text(&text).with_context(|| name.clone()).or_bad_input()?;
+            Ok((name, schedule))
         }
         (None, Some(value)) => {
             let name = plan_path.display().to_string();
-            (name.clone(), Schedule::from_json(value).context(name).or_bad_input()?)
+            let schedule = Schedule::from_json(value).with_context(|| name.clone()).or_bad_input()?;
+            Ok((name, schedule))
         }
         (None, None) => {
             let name = plan_path.display();
             let error =
                 anyhow!("{name}: has no schedule; make it with `zygote schedule {name} --rig RIG.toml`");
-            return Err(Failure::BadInput(error));
+            Err(Failure::BadInput(error))
         }
-    };
-    schedule.verify(plan, rig).context(name).or_bad_input()?;
-    Ok(schedule)
+    }
 }

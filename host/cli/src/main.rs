@@ -1,9 +1,11 @@
 //! The `zygote` command: one file per verb, each with its arguments and its `run`.
 
 mod alternatives;
+mod assembly;
 mod check;
 mod deploy;
 mod failure;
+mod fold_back;
 mod identity;
 mod input;
 mod interrupt;
@@ -19,7 +21,9 @@ mod schedule;
 mod sequence;
 mod sim;
 mod sim_rig;
+mod table;
 mod tolerance;
+mod torque;
 mod verb;
 
 use clap::Parser;

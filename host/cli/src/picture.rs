@@ -48,6 +48,8 @@ enum View {
     Film,
     /// The deployment, playing
     Animation,
+    /// The schedule, a row a hinge, with the current that it draws
+    Gantt,
 }
 
 /// Draws a plan.
@@ -66,6 +68,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         View::Both => picture::both(&plan).with_context(place).or_bad_input()?,
         View::Film => {
             picture::film(&plan, arguments.frames.unwrap_or(STAGES)).with_context(place).or_bad_input()?
+        }
+        View::Gantt => {
+            let (name, schedule) = input::unverified_schedule(&arguments.plan, &plan, None)?;
+            picture::gantt(&plan, &schedule).context(name).or_bad_input()?
         }
         View::Animation => picture::animation(&plan, arguments.frames).with_context(place).or_bad_input()?,
     };

@@ -2,7 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, check, deploy, net, picture, plan, reconfigure, schedule, sequence, sim, tolerance,
+    alternatives, assembly, check, deploy, fold_back, net, picture, plan, reconfigure, schedule, sequence,
+    sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -25,8 +26,16 @@ pub(crate) enum Verb {
     Tolerance(tolerance::Arguments),
     /// Put the hinges of a plan in order and time for a rig
     Schedule(schedule::Arguments),
-    /// Draw a plan: stack, shape, or the way between them
+    /// Print a plan's schedule as a table, a row a hinge
+    Table(table::Arguments),
+    /// Weigh a plan: the torque on every hinge while it opens, and whether the whole stands
+    Torque(torque::Arguments),
+    /// Draw a plan: stack, shape, the way between them, or its schedule
     Picture(picture::Arguments),
+    /// Run a plan's schedule backwards: what folds the shape up again, with servos alone
+    Fold(fold_back::Arguments),
+    /// List what to turn by hand, hinge after hinge, where nothing is driven
+    Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
     /// Serve a simulated board on a pseudo-terminal
@@ -46,6 +55,10 @@ impl Verb {
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Fold(arguments) => fold_back::run(&arguments),
+            Self::Assembly(arguments) => assembly::run(&arguments),
+            Self::Table(arguments) => table::run(&arguments),
+            Self::Torque(arguments) => torque::run(&arguments),
             Self::Schedule(arguments) => schedule::run(&arguments),
             Self::Picture(arguments) => picture::run(&arguments),
         }

@@ -7,6 +7,7 @@
 //! plan ------> Tolerance: how far panels are off, and cut edges gape, when hinges aren't exact
 //! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
 //! plan + order -> dense --> the same seen again by sampling, with code of its own
+//! plan + rig + order -> statics --> torque on every hinge against its rating, tipping of the whole
 //! plan ------> Kinematics --> poses of all panels --> picture (SVG)
 //! ```
 //!
@@ -20,6 +21,8 @@ mod order;
 pub mod picture;
 mod rig;
 mod schedule;
+pub mod statics;
+pub mod table;
 #[cfg(test)]
 mod testing;
 mod tolerance;

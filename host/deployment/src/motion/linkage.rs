@@ -217,7 +217,7 @@ impl Linkage {
     }
 
     /// The turn of a hinge in space, when its parent is where `poses` has it.
-    pub(super) fn turn(&self, hinge: usize, poses: &[DAffine3]) -> Turn {
+    pub fn turn(&self, hinge: usize, poses: &[DAffine3]) -> Turn {
         let joint = self.joint(hinge);
         let parent = &poses[joint.parent];
         Turn::new(

@@ -25,7 +25,7 @@ impl Turn {
     }
 
     /// The shift of the whole turn.
-    pub(super) fn stretch(&self) -> DVec3 {
+    pub fn stretch(&self) -> DVec3 {
         self.shift * self.angle
     }
 }

@@ -1,5 +1,6 @@
 //! Colours: a hue a pile, one chroma and lightness for all so that no pile shouts, shaded by the light.
 
+use crate::rig::Kind;
 use std::fmt;
 
 /// An sRGB colour; prints as `#rrggbb`, or `#rgb` where that is the same.
@@ -28,6 +29,15 @@ pub(super) fn panel(pile: usize, outer: bool, light: f64) -> Colour {
 /// The colour of a panel's edges.
 pub(super) fn edge(pile: usize) -> Colour {
     oklch(0.34, 0.07, hue(pile))
+}
+
+/// The colour of what a hinge of a kind does.
+pub(super) fn kind(kind: Kind) -> Colour {
+    match kind {
+        Kind::Sma => oklch(0.66, 0.16, 45.0),
+        Kind::Servo => oklch(0.60, 0.13, 245.0),
+        Kind::Spring => oklch(0.64, 0.13, 150.0),
+    }
 }
 
 /// The colour of a place where so many panels of a net lie on each other.

@@ -5,6 +5,7 @@ mod camera;
 mod colour;
 mod document;
 mod film;
+mod gantt;
 mod net;
 mod painter;
 mod scene;
@@ -14,6 +15,7 @@ mod tolerance;
 
 pub use animation::animation;
 pub use film::film;
+pub use gantt::gantt;
 pub use net::net;
 pub use stage::{Timeline, TimelineError};
 pub use still::{both, target, zygote};

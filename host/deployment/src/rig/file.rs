@@ -3,6 +3,7 @@
 use super::quantity::{Amps, Celsius, Ohms, Seconds, Volts};
 use super::settings::{Kind, ServoTable, SmaTable, SpringTable};
 use super::sim::SimTable;
+use super::weight::{Gravity, PanelTable};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -26,6 +27,10 @@ pub(super) struct RigFile {
     pub(super) servo: ServoTable,
     #[serde(default)]
     pub(super) spring: SpringTable,
+    #[serde(default)]
+    pub(super) panel: PanelTable,
+    #[serde(default)]
+    pub(super) gravity: Gravity,
     #[serde(default)]
     pub(super) sim: SimTable,
 }

@@ -8,19 +8,24 @@ mod file;
 mod fit;
 mod places;
 mod quantity;
+mod rating;
 mod rules;
 mod settings;
 mod sim;
+mod weight;
 
 pub use error::RigError;
 pub use fit::Fitting;
 pub use places::Place;
 pub use quantity::{
-    Amps, Celsius, Degrees, DegreesPerSecond, Joules, Kelvins, KelvinsPerWatt, Millimetres, NewtonMetres,
-    Ohms, QuantityError, Seconds, Volts, WattsPerKelvin, WattsPerSquareMetreKelvin,
+    Amps, Celsius, Degrees, DegreesPerSecond, Grams, GramsPerSquareMetre, Joules, Kelvins, KelvinsPerWatt,
+    Millimetres, NewtonMetres, Ohms, QuantityError, Seconds, Volts, WattsPerKelvin,
+    WattsPerSquareMetreKelvin,
 };
+pub use rating::{MOST_POINTS, Rating};
 pub use settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
 pub use sim::{Sim, SmaPlant};
+pub use weight::{Gravity, Weight};
 
 use file::RigFile;
 use places::{Places, line_of};
@@ -42,6 +47,10 @@ pub struct Rig {
     pub link: Link,
     /// The MCUs; at least one.
     pub nodes: Vec<Node>,
+    /// What the panels weigh, where the file says it.
+    pub panel: Option<Weight>,
+    /// Where down is.
+    pub gravity: Gravity,
     /// What only the simulator reads.
     pub sim: Sim,
     /// Kind of every hinge that has no entry of its own.
@@ -177,6 +186,8 @@ impl Rig {
                     springs: node.springs,
                 })
                 .collect(),
+            panel: file.panel.weight(),
+            gravity: file.gravity,
             sim: file.sim.resolve(file.rig.ambient),
             default_kind: file.hinges.default,
             sma: SmaSettings::resolve(None, &file.sma),

@@ -118,6 +118,15 @@ quantity! {
     NewtonMetres, "Nm", "a torque with its unit, as in \"5 mNm\"", [("Nm", 1.0), ("mNm", 1e-3)]
 }
 quantity! {
+    /// Mass in grams.
+    Grams, "g", "a mass with its unit, as in \"12 g\"", [("g", 1.0), ("kg", 1e3), ("mg", 1e-3)]
+}
+quantity! {
+    /// Mass per area, in grams per square metre.
+    GramsPerSquareMetre, "g/m2", "a mass per area with its unit, as in \"1.5 kg/m2\"",
+    [("g/m2", 1.0), ("kg/m2", 1e3), ("g/m²", 1.0), ("kg/m²", 1e3)]
+}
+quantity! {
     /// Angular speed in degrees per second.
     DegreesPerSecond, "deg/s", "an angular speed with its unit, as in \"90 deg/s\"", [("deg/s", 1.0)]
 }

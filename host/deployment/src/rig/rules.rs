@@ -1,9 +1,11 @@
 //! The rules that a rig file keeps whatever the plan. Each refusal names the key that is to be changed.
 
 use super::places::Place;
-use super::quantity::{Amps, Celsius, Seconds};
+use super::quantity::{Amps, Celsius, Degrees, Seconds};
+use super::rating::Rating;
 use super::settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
 use super::sim::SmaPlant;
+use super::weight::Weight;
 use super::{Entry, Rig, RigError};
 use crate::heating;
 use std::collections::BTreeSet;
@@ -51,6 +53,24 @@ impl Rig {
             let once = names.insert(node.name.as_str());
             rules.hold(once, &format!("node[{index}].name"), "another name for every node", &node.name)?;
         }
+        match &self.panel {
+            None => {}
+            Some(Weight::Each(mass)) => {
+                rules.above_0("panel.mass", mass.0, mass)?;
+                let both = self.places.of("panel.density").line.is_some();
+                rules.hold(!both, "panel.density", "either a mass or a density", "both")?;
+            }
+            Some(Weight::PerArea(density)) => rules.above_0("panel.density", density.0, density)?,
+        }
+        let direction = self.gravity.direction;
+        let direction_found = format!("{direction:?}");
+        let is_direction = direction.iter().all(|x| x.is_finite()) && direction.iter().any(|x| *x != 0.0);
+        rules.hold(
+            is_direction,
+            "gravity.direction",
+            "three finite numbers, not all of them 0",
+            &direction_found,
+        )?;
         self.check_hinges()
     }
 
@@ -181,7 +201,17 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
         self.at_most(key, value, &"supply.limit = ", self.rig.supply.limit)
     }
 
+    fn torque(&self, rating: &Rating) -> Result<(), RigError> {
+        for (angle, torque) in rating.points() {
+            self.above_0("torque", torque.0, torque)?;
+            self.between("torque", *angle, Degrees(0.0), Degrees(270.0))?;
+        }
+        let rising = rating.points().windows(2).all(|pair| pair[0].0 < pair[1].0);
+        self.hold(rising, "torque", "rising angles", "an angle that isn't above the one before it")
+    }
+
     fn drive(&self, drive: &Drive) -> Result<(), RigError> {
+        self.torque(drive.torque())?;
         match drive {
             Drive::Sma(sma) => self.sma(sma),
             Drive::Servo(servo) => self.servo(servo),

@@ -1,7 +1,10 @@
 //! What a hinge of each kind is driven with: every setting with its default, shared by all hinges of the kind
 //! in `[sma]`, `[servo]` and `[spring]`, or given for one hinge in `[hinge.sma]` and so on.
 
-use super::quantity::{Amps, Celsius, DegreesPerSecond, Joules, Kelvins, KelvinsPerWatt, Ohms, Seconds};
+use super::quantity::{
+    Amps, Celsius, DegreesPerSecond, Joules, Kelvins, KelvinsPerWatt, NewtonMetres, Ohms, Seconds,
+};
+use super::rating::Rating;
 use serde::Deserialize;
 
 /// Defines a set of settings, and the table of a rig file in which each of them may stand or not.
@@ -60,6 +63,8 @@ settings! {
         austenite_start: Celsius = Celsius(68.0),
         /// Here the hinge has opened.
         austenite_finish: Celsius = Celsius(78.0),
+        /// The most that it lifts or holds.
+        torque: Rating = Rating::constant(NewtonMetres(0.034)),
     }
 }
 
@@ -78,6 +83,8 @@ settings! {
         current: Amps = Amps(0.25),
         /// Current of a servo that holds its angle, until the run ends.
         hold_current: Amps = Amps(0.01),
+        /// The most that it lifts or holds.
+        torque: Rating = Rating::constant(NewtonMetres(0.17)),
     }
 }
 
@@ -90,6 +97,8 @@ settings! {
         settle: Seconds = Seconds(0.5),
         /// Current of the burn wire or latch.
         current: Amps = Amps(1.0),
+        /// The most that it lifts or holds.
+        torque: Rating = Rating::constant(NewtonMetres(0.05)),
     }
 }
 
@@ -146,6 +155,15 @@ impl Drive {
             Self::Sma(_) => Kind::Sma,
             Self::Servo(_) => Kind::Servo,
             Self::Spring(_) => Kind::Spring,
+        }
+    }
+
+    /// The most torque that the hinge lifts or holds.
+    pub const fn torque(&self) -> &Rating {
+        match self {
+            Self::Sma(sma) => &sma.torque,
+            Self::Servo(servo) => &servo.torque,
+            Self::Spring(spring) => &spring.torque,
         }
     }
 }

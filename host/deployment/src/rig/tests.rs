@@ -148,6 +148,58 @@ fn a_rig_that_does_not_suit_a_plan_is_refused() {
 }
 
 #[test]
+fn weights_ratings_and_directions_that_cannot_be_are_refused_with_their_line() {
+    for (extra, said) in [
+        ("[panel]\nmass = \"0 g\"\n", "rig.toml:14: panel.mass: expected more than 0, found 0 g"),
+        ("[panel]\nmass = \"-12 g\"\n", "rig.toml:14: panel.mass: expected more than 0, found -12 g"),
+        (
+            "[panel]\ndensity = \"0 kg/m2\"\n",
+            "rig.toml:14: panel.density: expected more than 0, found 0 g/m2",
+        ),
+        (
+            "[panel]\nmass = \"1 g\"\ndensity = \"1 kg/m2\"\n",
+            "rig.toml:15: panel.density: expected either a mass or a density, found both",
+        ),
+        (
+            "[panel]\nmass = 12\n",
+            "rig.toml:14: invalid type: integer `12`, expected a mass with its unit, as in \"12 g\"",
+        ),
+        (
+            "[gravity]\ndirection = [0, 0, 0]\n",
+            "rig.toml:14: gravity.direction: expected three finite numbers, not all of them 0, found [0.0, 0.0, 0.0]",
+        ),
+        (
+            "[gravity]\ndirection = [0, nan, 1]\n",
+            "rig.toml:14: gravity.direction: expected three finite numbers",
+        ),
+        ("[sma]\ntorque = \"0 mNm\"\n", "rig.toml:14: sma.torque: expected more than 0, found 0 Nm"),
+        ("[servo]\ntorque = []\n", "rig.toml"),
+        (
+            "[sma]\ntorque = [[\"90 deg\", \"1 Nm\"], [\"10 deg\", \"1 Nm\"]]\n",
+            "rig.toml:14: sma.torque: expected rising angles",
+        ),
+        (
+            "[sma]\ntorque = [[\"300 deg\", \"1 Nm\"]]\n",
+            "rig.toml:14: sma.torque: expected 0 deg to 270 deg, found 300 deg",
+        ),
+        (
+            "[[hinge]]\nhinge = 1\nsma = { torque = \"-1 Nm\" }\n",
+            "rig.toml:15: hinge[0].sma.torque: expected more than 0, found -1 Nm",
+        ),
+    ] {
+        let refused = refusal(&rig_text(extra));
+        assert!(refused.starts_with(said), "{extra}: {refused}");
+    }
+}
+
+#[test]
+fn a_panel_weighs_its_mass_or_its_density_times_its_area() {
+    let mass = |extra: &str| rig(extra).panel_mass(Millimetres(100.0)).expect("a mass").0;
+    assert!((mass("[panel]\nmass = \"12 g\"\n") - 12.0).abs() < 1e-12);
+    assert!((mass("[panel]\ndensity = \"1.5 kg/m2\"\n") - 15.0).abs() < 1e-12);
+}
+
+#[test]
 fn the_defaults_of_a_kind_that_the_rig_lacks_need_not_suit_it() {
     let text = rig_text("[hinges]\ndefault = \"servo\"\n").replace("2 A", "300 mA");
     Rig::read("rig.toml", &text).expect("no spring here draws 1 A");

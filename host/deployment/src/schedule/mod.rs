@@ -18,6 +18,7 @@ mod make;
 mod motion;
 mod problem;
 mod reduction;
+mod reversed;
 mod search;
 mod timeline;
 mod units;
@@ -27,7 +28,9 @@ mod waiting;
 pub use crossing::Crossing;
 pub use fingerprint::Fingerprint;
 pub use make::{Limits, SchedulingError};
+pub(crate) use motion::start_opening_deg;
 pub use motion::{Motion, ServoMotion, SmaMotion, SpringMotion};
+pub use reversed::ReverseError;
 pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
 
