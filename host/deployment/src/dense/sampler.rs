@@ -124,7 +124,7 @@ impl<'a> Sampler<'a> {
             self.samples += 1;
             let boxes: Vec<_> =
                 runs.iter().map(|run| run.zygote.moved(&self.motions[run.layers[0].panel])).collect();
-            let at_an_end = sample == 0.0 || sample == samples;
+            let at_an_end = sample <= 0.0 || sample >= samples;
             for (number, (run, slab)) in runs.iter().zip(&boxes).enumerate() {
                 self.against_ground(run, slab, &moving, at_once);
                 let mut compare = |sampler: &mut Self, key: usize, other_run: &Run, other: &Slab| {
