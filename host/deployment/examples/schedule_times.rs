@@ -34,7 +34,7 @@ fn rig(driven: &Hinges, hinges: usize, at_once: u64) -> Rig {
     let limit = at_once * current + hold * hinges as u64;
     let mut text = format!(
         "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\nresistance = \"0 ohm\"\n\
-         [hinges]\ndefault = \"{kind}\"\n[servo]\nhold_current = \"{hold} mA\"\n"
+         [hinges]\ndefault = \"{kind}\"\n[servo]\ncurrent = \"{current} mA\"\nhold_current = \"{hold} mA\"\n"
     );
     let nodes = hinges.div_ceil(60_000);
     for node in 0..nodes {

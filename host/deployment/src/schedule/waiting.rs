@@ -38,6 +38,14 @@ struct Steps<'a> {
     after: Vec<Vec<usize>>,
 }
 
+/// One that is waited for, with its start and end as waiting for others would delay them.
+struct Left {
+    step: usize,
+    start: u64,
+    opened: u64,
+    room: usize,
+}
+
 /// The waiting of a schedule.
 ///
 /// # Errors
@@ -157,13 +165,6 @@ impl Steps<'_> {
         }
         self.drop_implied(step);
         while self.after[step].len() > MOST_AFTER && self.relay(step) {}
-        /// One that is waited for, with its start and end as waiting for others would delay them.
-        struct Left {
-            step: usize,
-            start: u64,
-            opened: u64,
-            room: usize,
-        }
         let mut left: Vec<_> = self.after[step]
             .iter()
             .map(|&step| Left {
