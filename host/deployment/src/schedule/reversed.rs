@@ -187,9 +187,18 @@ mod tests {
     }
 
     #[test]
-    fn twice_reversed_one_by_one_it_is_what_it_was() {
+    fn twice_reversed_it_is_what_it_was_but_for_waits_that_others_imply() {
         let forward = scheduled("", "2 A", 1, 3);
-        assert_eq!(forward.reversed().and_then(|back| back.reversed()), Ok(forward));
+        let back = forward.reversed().expect("servos alone");
+        let again = back.reversed().expect("servos alone");
+        for (step, before) in again.steps.iter().zip(&forward.steps) {
+            assert!(step.after.iter().all(|wait| before.after.contains(wait)));
+            assert_eq!(
+                Step { after: Vec::new(), ..step.clone() },
+                Step { after: Vec::new(), ..before.clone() }
+            );
+        }
+        assert_eq!(again.reversed().expect("servos alone"), back);
     }
 
     #[test]
