@@ -27,18 +27,8 @@ pub(crate) struct Arguments {
     /// The rig that is to deploy it
     #[arg(long, value_name = "RIG.toml")]
     rig: PathBuf,
-    /// What the motion is checked with
-    #[arg(long, value_enum, default_value_t = PlatesArgument::Ideal)]
-    panels: PlatesArgument,
-    /// A table under the zygote that nothing may pass
-    #[arg(long)]
-    ground: bool,
-    /// Schedule the least bad order where none without a collision is found; the collisions are listed and stored
-    #[arg(long)]
-    allow_collisions: bool,
-    /// Look for no collision: hinges open from the root outwards, one at a time unless --parallel is given
-    #[arg(long, conflicts_with_all = ["panels", "ground", "allow_collisions"])]
-    unchecked: bool,
+    #[command(flatten)]
+    motion: MotionArguments,
     /// One hinge after the other, in the order that was checked
     #[arg(long, conflicts_with = "parallel")]
     sequential: bool,
@@ -53,6 +43,23 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
+/// What is checked of the motion.
+#[derive(Args)]
+struct MotionArguments {
+    /// What the motion is checked with
+    #[arg(long, value_enum, default_value_t = PlatesArgument::Ideal)]
+    panels: PlatesArgument,
+    /// A table under the zygote that nothing may pass
+    #[arg(long)]
+    ground: bool,
+    /// Schedule the least bad order where none without a collision is found; the collisions are listed and stored
+    #[arg(long)]
+    allow_collisions: bool,
+    /// Look for no collision: hinges open from the root outwards, one at a time unless --parallel is given
+    #[arg(long, conflicts_with_all = ["panels", "ground", "allow_collisions"])]
+    unchecked: bool,
+}
+
 fn at_least_1(text: &str) -> Result<usize, String> {
     text.parse()
         .ok()
@@ -65,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.plan.display();
     let rig = input::rig(&arguments.rig)?;
     let mut plan = input::plan(&arguments.plan)?;
-    let parallel = arguments.parallel.or(arguments.unchecked.then_some(1));
+    let parallel = arguments.parallel.or(arguments.motion.unchecked.then_some(1));
     let limits = Limits { parallel, one_servo_a_node: arguments.one_servo, ..Limits::default() };
     let schedule_of = |order: &Order, limits: &Limits| {
         Schedule::plan(&plan, &rig, order, limits)
@@ -73,7 +80,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .or_bad_input()
     };
     let by_tree = Order::of_tree(&Tree::new(&plan).context("no order").or_bad_input()?);
-    let schedule = if arguments.unchecked {
+    let schedule = if arguments.motion.unchecked {
         schedule_of(&by_tree, &limits)?
     } else {
         // What the rig can't drive is told before a long search.
@@ -119,9 +126,9 @@ fn checked_order(arguments: &Arguments, plan: &Plan) -> Result<(Order, Certifica
             plan.panels()
         )));
     }
-    let plates = Plates::from(arguments.panels);
+    let plates = Plates::from(arguments.motion.panels);
     let thickness = plates.thickness(plan);
-    let ground = arguments.ground.then_some(Ground::TABLE);
+    let ground = arguments.motion.ground.then_some(Ground::TABLE);
     let bar = progress();
     let found = search(plan, thickness, ground, &Effort::default(), &mut |attempts, blocked| {
         let best = blocked.map_or(String::new(), |blocked| format!(", at best {blocked} hinges blocked"));
@@ -139,7 +146,7 @@ fn checked_order(arguments: &Arguments, plan: &Plan) -> Result<(Order, Certifica
     if meetings > SHOWN_COLLISIONS {
         say(format_args!("... and {} more", meetings - SHOWN_COLLISIONS));
     }
-    if meetings > 0 && !arguments.allow_collisions {
+    if meetings > 0 && !arguments.motion.allow_collisions {
         return Err(Failure::Failed(anyhow!(
             "{name}: of {} orders none is free; the best one has {meetings} collisions, listed above; make a plan that opens \
              freely with `zygote plan --free`, or schedule this one with --allow-collisions",

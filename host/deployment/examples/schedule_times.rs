@@ -32,15 +32,14 @@ struct Hinges {
 fn rig(driven: &Hinges, hinges: usize, at_once: u64) -> Rig {
     let Hinges { kind, current, hold, .. } = driven;
     let limit = at_once * current + hold * hinges as u64;
-    let mut text = format!(
+    let head = format!(
         "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\nresistance = \"0 ohm\"\n\
          [hinges]\ndefault = \"{kind}\"\n[servo]\ncurrent = \"{current} mA\"\nhold_current = \"{hold} mA\"\n"
     );
     let nodes = hinges.div_ceil(60_000);
-    for node in 0..nodes {
-        let channels = hinges.div_ceil(nodes);
-        text += &format!("[[node]]\nname = \"{node}\"\nheaters = {channels}\nservos = {channels}\n");
-    }
+    let channels = hinges.div_ceil(nodes);
+    let node = |node| format!("[[node]]\nname = \"{node}\"\nheaters = {channels}\nservos = {channels}\n");
+    let text: String = [head].into_iter().chain((0..nodes).map(node)).collect();
     Rig::read("rig.toml", &text).unwrap()
 }
 

@@ -27,6 +27,9 @@ struct Socket {
 /// A node and the kind of its channels.
 type Bank = (usize, Kind);
 
+/// Of every bank the channels that the rig file gives away.
+type Taken = BTreeMap<Bank, BTreeSet<u16>>;
+
 impl Rig {
     /// The fitting of each of `hinges` hinges of which nothing is known: as neighbours count those with neighbouring
     /// numbers. With one node it is that of any plan.
@@ -94,11 +97,11 @@ impl Rig {
     }
 
     /// What the rig file says of every hinge, and the channels that it gives away.
-    fn given(&self, hinges: usize) -> Result<(Vec<Socket>, BTreeMap<Bank, BTreeSet<u16>>), RigError> {
+    fn given(&self, hinges: usize) -> Result<(Vec<Socket>, Taken), RigError> {
         let last = hinges.saturating_sub(1);
         let shared = Socket { node: None, channel: None, drive: self.shared(self.default_kind) };
         let mut places = vec![shared; hinges];
-        let mut taken: BTreeMap<Bank, BTreeSet<u16>> = BTreeMap::new();
+        let mut taken = Taken::new();
         for (index, entry) in self.entries.iter().enumerate() {
             let at = |key: &str| self.places.of(format!("hinge[{index}].{key}"));
             let Some(place) = places.get_mut(entry.hinge) else {

@@ -82,7 +82,9 @@ impl Problem {
 fn turned(before: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut followers = vec![Vec::new(); before.len()];
     for (task, before) in before.iter().enumerate() {
-        before.iter().for_each(|b| followers[*b].push(task));
+        for earlier in before {
+            followers[*earlier].push(task);
+        }
     }
     followers
 }

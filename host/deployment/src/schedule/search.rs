@@ -34,7 +34,7 @@ pub(super) struct Found {
 
 /// The best schedule found, with at most `samples` random lists; `bound` is a time that none is shorter than.
 pub(super) fn best(problem: &Problem, bound: u64, samples: usize) -> Result<Found, Stuck> {
-    let mut found = Best { problem, bound, best: None };
+    let mut found = Best { problem, bound, shortest: None };
     let mut stuck = None;
     for rule in rules(problem) {
         match greedy::starts(problem, &rule) {
@@ -54,16 +54,16 @@ pub(super) fn best(problem: &Problem, bound: u64, samples: usize) -> Result<Foun
         found.sample(samples.min(most));
     }
     if !found.is_proven() && problem.len() <= exact::MOST {
-        let known = found.best.as_ref().map(|(makespan, _)| *makespan);
+        let known = found.shortest.as_ref().map(|(makespan, _)| *makespan);
         let (better, proven) = exact::shorter(problem, known);
         if let Some(starts) = better {
             found.offer(starts);
         }
-        if let (true, Some((makespan, _))) = (proven, &found.best) {
+        if let (true, Some((makespan, _))) = (proven, &found.shortest) {
             found.bound = *makespan;
         }
     }
-    match (found.best, stuck) {
+    match (found.shortest, stuck) {
         (Some((makespan, starts)), _) => Ok(Found { starts, makespan, bound: found.bound }),
         (None, Some(stuck)) => Err(stuck),
         // There always is a rule, and what it makes is offered.
@@ -90,19 +90,19 @@ fn rules(problem: &Problem) -> [Vec<u64>; 4] {
 struct Best<'a> {
     problem: &'a Problem,
     bound: u64,
-    best: Option<(u64, Vec<u64>)>,
+    shortest: Option<(u64, Vec<u64>)>,
 }
 
 impl Best<'_> {
     fn is_proven(&self) -> bool {
-        self.best.as_ref().is_some_and(|(makespan, _)| *makespan <= self.bound)
+        self.shortest.as_ref().is_some_and(|(makespan, _)| *makespan <= self.bound)
     }
 
     /// Of equally long ones the first stays.
     fn offer(&mut self, starts: Vec<u64>) {
         let makespan = self.problem.makespan(&starts);
-        if self.best.as_ref().is_none_or(|(best, _)| makespan < *best) {
-            self.best = Some((makespan, starts));
+        if self.shortest.as_ref().is_none_or(|(best, _)| makespan < *best) {
+            self.shortest = Some((makespan, starts));
         }
     }
 
@@ -130,7 +130,7 @@ impl Best<'_> {
         let longest = way.iter().copied().max().unwrap_or(0);
         let longest_motion = self.problem.tasks.iter().map(|task| task.duration).max().unwrap_or(0);
         for sample in 0..samples {
-            let keys: Vec<u64> = match &self.best {
+            let keys: Vec<u64> = match &self.shortest {
                 Some((makespan, starts)) if sample % 2 == 1 => {
                     // From a tenth of the whole down to a fiftieth.
                     let reach = 1 + makespan / (10 + 10 * (sample as u64 / 2 % 5));
@@ -221,7 +221,7 @@ fn signed(current: u64) -> i64 {
     i64::try_from(current).unwrap_or(i64::MAX / 2)
 }
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
+/// `SplitMix64` (Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {

@@ -42,8 +42,8 @@ fn random_problem(
 /// Whether all limits are kept, looked at for every moment.
 fn is_good(problem: &Problem, starts: &[u64], durations: &[u64]) -> Result<(), String> {
     let end = |task: usize| starts[task] + durations[task];
-    for task in 0..problem.len() {
-        if problem.before[task].iter().any(|before| end(*before) > starts[task]) {
+    for (task, start) in starts.iter().enumerate() {
+        if problem.before[task].iter().any(|before| end(*before) > *start) {
             return Err(format!("{task} starts too early"));
         }
     }

@@ -143,8 +143,8 @@ impl Steps<'_> {
                 Some(*latest)
             })
             .collect();
-        for step in 0..self.tasks.len() {
-            if task(step).hold == 0 && !is_tight[step] {
+        for (step, is_tight) in is_tight.into_iter().enumerate() {
+            if task(step).hold == 0 && !is_tight {
                 continue;
             }
             let ended = tight.partition_point(|other| self.opened[*other] <= self.start[step]);
