@@ -166,9 +166,9 @@ fn nobody_at_the_other_end_is_told_by_name_after_the_time_given() {
 #[test]
 fn a_schedule_on_several_nodes_is_refused_before_anything_is_sent() {
     let (rig, schedule) = job();
-    let text = std::fs::read_to_string(repository().join("models/rigs/mixed.toml")).unwrap();
+    let text = std::fs::read_to_string(repository().join("models/rigs/servo-160.toml")).unwrap();
     let second = "[[node]]\nname = \"second\"\nservos = 16\n\n[hinges]";
-    let text = text.replace("servos = 16", "servos = 4").replacen("[hinges]", second, 1);
+    let text = text.replace("servos = 160", "servos = 4").replacen("[hinges]", second, 1);
     let model = Model::read(&repository().join("models/i14.txt"), None).unwrap();
     let plan = zygote_stacking::plan(&model, &Request { piles: 2, ..Request::default() }).unwrap();
     let two_nodes = Rig::read("two.toml", &text).unwrap();

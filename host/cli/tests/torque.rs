@@ -68,7 +68,11 @@ fn the_order_is_that_of_the_schedule_where_there_is_one() {
     assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml"]).code, 0);
     let run = place.zygote(&["torque", "plan.fold", "--rig", "rig.toml", "--support", "root"]);
     assert_eq!(run.code, 0, "{}", run.errors);
-    assert!(run.output.contains("in the order of its schedule, panels of 1 g"), "{}", run.output);
+    assert!(
+        run.output.contains("in the order of its schedule, but one by one, panels of 1 g"),
+        "{}",
+        run.output
+    );
     assert!(run.output.contains("tipping: on the root it "), "{}", run.output);
 }
 
@@ -138,7 +142,12 @@ fn servos_fold_a_shape_up_again_and_other_hinges_are_refused_by_name() {
     let place = planned("fold_back", "1 g");
     let servos = RIG.replace("heaters = 16", "servos = 16") + "[hinges]\ndefault = \"servo\"\n";
     place.write("servos.toml", &servos);
-    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "servos.toml", "-o", "there.json"]).code, 0);
+    assert_eq!(
+        place
+            .zygote(&["schedule", "plan.fold", "--rig", "servos.toml", "--sequential", "-o", "there.json"])
+            .code,
+        0
+    );
     let fold = |rig: &str, there: &str| {
         place.zygote(&["fold", "plan.fold", "--rig", rig, "--schedule", there, "-o", "back.json"])
     };

@@ -24,6 +24,7 @@ impl Effort {
     /// Partitions tried, and shapes of the grid for each.
     fn tries(self, piles: usize) -> (usize, usize) {
         match self {
+            Self::Short if piles > VERY_MANY_PILES => (1, 1),
             Self::Short if piles > MANY_PILES => (1, 2),
             Self::Short => (2, 2),
             Self::Thorough => (6, 3),
@@ -33,6 +34,8 @@ impl Effort {
 
 /// With more piles than this a partition takes long to match.
 const MANY_PILES: usize = 16;
+/// With more than this, long.
+const VERY_MANY_PILES: usize = 32;
 /// Panels looked at over all the times that parts are joined, and how often that is at least and at most.
 const PANELS: usize = 16_000;
 const FEWEST_TIMES: usize = 2;

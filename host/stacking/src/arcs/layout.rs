@@ -16,13 +16,9 @@ pub(super) struct Layout {
     pub(super) bridges: Vec<Joint>,
 }
 
-/// The box of a set of cells: area first, then half its circumference.
-pub(super) fn compactness<'a>(cells: &(impl Iterator<Item = &'a [i32; 2]> + Clone)) -> (i32, i32) {
-    let [across, along] = [0, 1].map(|axis| {
-        let values = || cells.clone().map(|cell| cell[axis]);
-        values().max().unwrap_or(0) - values().min().unwrap_or(0) + 1
-    });
-    (across * along, across + along)
+/// How large the box of some cells is: area first, then half its circumference.
+pub(super) fn compactness<'a>(cells: impl IntoIterator<Item = &'a [i32; 2]>) -> (i32, i32) {
+    Bounds::of(cells).compactness()
 }
 
 /// A way to add a pile: by which joint, where, and how turned.
@@ -41,22 +37,24 @@ pub(super) fn grow(
     grid: Option<[usize; 2]>,
     random: &mut Random,
 ) -> Result<Layout, usize> {
-    let mut placed: BTreeMap<usize, ([i32; 2], usize)> = BTreeMap::from([(random.below(piles), ([0, 0], 0))]);
+    // Of every pile that stands its cell and its turns.
+    let mut placed: Vec<Option<([i32; 2], usize)>> = vec![None; piles];
+    placed[random.below(piles)] = Some(([0, 0], 0));
     let mut taken: BTreeSet<[i32; 2]> = BTreeSet::from([[0, 0]]);
     let mut bridges = Vec::with_capacity(piles);
-    while placed.len() < piles {
+    while taken.len() < piles {
+        let bounds = Bounds::of(&taken);
         let mut ways: BTreeMap<usize, Vec<Way>> = BTreeMap::new();
         for (number, joint) in joints.iter().enumerate() {
             for (here, there) in [(0, 1), (1, 0)] {
-                let (Some((cell, turn)), None) =
-                    (placed.get(&joint.piles[here]), placed.get(&joint.piles[there]))
+                let (Some((cell, turn)), None) = (placed[joint.piles[here]], placed[joint.piles[there]])
                 else {
                     continue;
                 };
-                let side = joint.sides[here].turned(*turn);
+                let side = joint.sides[here].turned(turn);
                 let [dx, dy] = side.step();
                 let beyond = [cell[0] + dx, cell[1] + dy];
-                if !taken.contains(&beyond) && fits(grid, &taken, beyond) {
+                if !taken.contains(&beyond) && bounds.with(beyond).fit(grid) {
                     // Turned so that the bridge is on the side across.
                     let turn = side.opposite() as usize + 4 - joint.sides[there] as usize;
                     let way = Way { joint: number, cell: beyond, turn: turn % 4 };
@@ -64,7 +62,7 @@ pub(super) fn grow(
                 }
             }
         }
-        let fewest = ways.values().map(Vec::len).min().ok_or(placed.len())?;
+        let fewest = ways.values().map(Vec::len).min().ok_or(taken.len())?;
         let choice: Vec<usize> =
             ways.iter().filter(|(_, list)| list.len() <= fewest + 1).map(|(pile, _)| *pile).collect();
         let pile = choice[random.below(choice.len())];
@@ -72,25 +70,54 @@ pub(super) fn grow(
         random.shuffle(&mut list);
         // Mostly the most compact way; now and then any, so that another try comes out differently.
         if random.below(4) > 0 {
-            list.sort_by_key(|way| compactness(&taken.iter().chain([&way.cell])));
+            list.sort_by_key(|way| bounds.with(way.cell).compactness());
         }
-        let Some(way) = list.first() else { return Err(placed.len()) };
-        placed.insert(pile, (way.cell, way.turn));
+        let Some(way) = list.first() else { return Err(taken.len()) };
+        placed[pile] = Some((way.cell, way.turn));
         taken.insert(way.cell);
         bridges.push(joints[way.joint]);
     }
-    let corner = [0, 1].map(|axis| taken.iter().map(|cell| cell[axis]).min().unwrap_or(0));
-    let cells = placed.values().map(|(cell, _)| [cell[0] - corner[0], cell[1] - corner[1]]).collect();
-    Ok(Layout { cells, turns: placed.values().map(|(_, turn)| *turn).collect(), bridges })
+    let corner = Bounds::of(&taken).low;
+    let (cells, turns) =
+        placed.into_iter().flatten().map(|([x, y], turn)| ([x - corner[0], y - corner[1]], turn)).unzip();
+    Ok(Layout { cells, turns, bridges })
 }
 
-/// Whether the cells fit on a grid with one more.
-fn fits(grid: Option<[usize; 2]>, taken: &BTreeSet<[i32; 2]>, beyond: [i32; 2]) -> bool {
-    grid.is_none_or(|sides| {
-        (0..2).all(|axis| {
-            let values = || taken.iter().chain([&beyond]).map(|cell| cell[axis]);
-            let span = values().max().unwrap_or(0).abs_diff(values().min().unwrap_or(0));
-            (span as usize) < sides[axis]
+/// The box of some cells.
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: [i32; 2],
+    high: [i32; 2],
+}
+
+impl Bounds {
+    fn of<'a>(cells: impl IntoIterator<Item = &'a [i32; 2]>) -> Self {
+        let none = Self { low: [i32::MAX; 2], high: [i32::MIN; 2] };
+        cells.into_iter().fold(none, |bounds, cell| bounds.with(*cell))
+    }
+
+    /// The box with one more cell.
+    fn with(self, cell: [i32; 2]) -> Self {
+        Self {
+            low: [0, 1].map(|axis| self.low[axis].min(cell[axis])),
+            high: [0, 1].map(|axis| self.high[axis].max(cell[axis])),
+        }
+    }
+
+    fn sides(self) -> [i32; 2] {
+        [0, 1].map(|axis| self.high[axis] - self.low[axis] + 1)
+    }
+
+    /// Area first, then half the circumference.
+    fn compactness(self) -> (i32, i32) {
+        let [across, along] = self.sides();
+        (across * along, across + along)
+    }
+
+    /// Whether it fits on a grid of so many cells, where one is given.
+    fn fit(self, grid: Option<[usize; 2]>) -> bool {
+        grid.is_none_or(|most| {
+            self.sides().into_iter().zip(most).all(|(side, most)| side.unsigned_abs() as usize <= most)
         })
-    })
+    }
 }

@@ -115,7 +115,7 @@ impl Search {
                     continue;
                 }
             };
-            let (area, rim) = layout::compactness(&layout.cells.iter());
+            let (area, rim) = layout::compactness(&layout.cells);
             let bridges = layout.bridges.iter().map(|joint| {
                 let (_, height) = cuts.pile_and_height(joint.panels[0], offset);
                 (joint.piles, height)
