@@ -62,7 +62,7 @@ pub fn free_plan(
     told: &mut dyn FnMut(u64, Option<usize>),
 ) -> Result<FreePlan, FreePlanError> {
     // Many plans, each for a short time, find one sooner than one for a long time.
-    let effort = Effort { other_roots: 2, backward: 3, ..Effort::default() };
+    let effort = Effort { other_roots: 2, ..Effort::default() };
     let mut best: Option<FreePlan> = None;
     let mut failed = None;
     for tried in 1..=tries {
