@@ -34,7 +34,7 @@ struct Joint {
 }
 
 /// The frame of a panel: origin at corner 0, x along its first edge, z to its outer side.
-fn frame(corners: &[DVec3; 4]) -> DAffine3 {
+pub(crate) fn frame(corners: &[DVec3; 4]) -> DAffine3 {
     let x = corners[1] - corners[0];
     let y = corners[3] - corners[0];
     DAffine3::from_mat3_translation(DMat3::from_cols(x, y, x.cross(y)), corners[0])

@@ -2,8 +2,9 @@
 
 use super::thickness::{MotionError, Thickness};
 use super::turning::Turn;
+use crate::kinematics::frame;
 use crate::tree::Tree;
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 use zygote_stacking::{HingeKind, Plan};
 
 /// A hinge as a joint from the panel nearer to the root to the one that it moves. All in the parent's frame.
@@ -52,13 +53,6 @@ pub(super) struct Layer {
     pub(super) panel: usize,
     /// The hinge to the panel above it; none where the fold is broken, or at the top.
     pub(super) fold: Option<usize>,
-}
-
-/// The frame of a panel: origin at corner 0, x along its first edge, z to its outer side.
-fn frame(corners: &[DVec3; 4]) -> DAffine3 {
-    let x = corners[1] - corners[0];
-    let y = corners[3] - corners[0];
-    DAffine3::from_mat3_translation(DMat3::from_cols(x, y, x.cross(y)), corners[0])
 }
 
 /// The heights of all panels, if every one lies in exactly one pile.
