@@ -288,5 +288,9 @@ fn a_way_back_that_was_changed_is_refused() {
     place.write("back.json", &back.to_string());
     let run = place.zygote(&["deploy", "plan.fold", "--schedule", "back.json", "--rig", &rig, "--sim"]);
     assert_eq!(run.code, 2, "{}", run.output);
-    assert!(run.errors.contains("back.json") && run.errors.contains("opening_deg should be"), "{}", run.errors);
+    assert!(
+        run.errors.contains("back.json") && run.errors.contains("opening_deg should be"),
+        "{}",
+        run.errors
+    );
 }
