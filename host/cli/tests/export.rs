@@ -17,6 +17,7 @@ fn a_plan_becomes_an_animated_scene_at_the_times_of_its_schedule() {
     let export = || {
         let run = place.zygote(&["export", "plan.fold", "-o", "plan.glb"]);
         assert_eq!(run.code, 0, "{}", run.errors);
+        assert!(run.output.starts_with("plan.glb: "), "{}", run.output);
         place.bytes("plan.glb")
     };
     let unscheduled = export();
