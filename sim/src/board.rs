@@ -14,7 +14,7 @@ use zygote_protocol::{
 };
 
 /// Time between two control ticks: as slow as the core allows, to be fast.
-const TICK: Millis = Millis(5);
+pub const TICK: Millis = Millis(5);
 
 /// Channels and steps that the simulated board has room for.
 const HEATERS: usize = 256;
