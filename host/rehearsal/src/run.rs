@@ -1,0 +1,144 @@
+//! One rehearsal: the real controller deploys over the simulated line, things go wrong, and the truth is noted.
+
+use crate::board::{BoardError, channels};
+use crate::cause::{Cause, Way};
+use crate::script::Script;
+use crate::stage::Stage;
+use crate::witness::{Watch, Witness};
+use std::io;
+use zygote_controller::{Deployment, EventLog, RunReport, Session, deploy};
+use zygote_deployment::{Rig, Schedule};
+use zygote_protocol::{Micros, Millis};
+use zygote_sim::plant::{Config, PlantError};
+use zygote_sim::{Board, Impairment};
+
+/// How long an answer to the hello is waited for.
+const HELLO_PATIENCE: Millis = Millis(2_000);
+/// Session, run and boot, so that every rehearsal is the same.
+const NUMBER: u32 = 1;
+/// S3: everything is off so long after the link timeout.
+pub(crate) const LINK_GRACE: Millis = Millis(50);
+/// S7: measured current may show so much above the limit, per cent.
+const CURRENT_MARGIN_PER_CENT: f64 = 10.0;
+/// Standard deviations of the current's noise that no filter of three readings exceeds in a campaign.
+const NOISE_SIGMAS: f64 = 5.0;
+
+/// What is rehearsed.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// The rig as the host knows it.
+    pub rig: Rig,
+    /// What it runs.
+    pub schedule: Schedule,
+    /// The rig as it truly is.
+    pub plant: Config,
+    /// What goes wrong.
+    pub causes: Vec<Cause>,
+    /// What is wrong with the line from the start on.
+    pub line: Vec<(Way, Impairment)>,
+    /// Of all chance on the line.
+    pub seed: u64,
+    /// The host must have ended by then.
+    pub most: Millis,
+    /// How long the board is watched after the host's end.
+    pub afterwards: Millis,
+    /// Keep a log of what happens.
+    pub log: bool,
+}
+
+/// How the host's program ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ending {
+    /// With a report.
+    Report(RunReport),
+    /// Nothing was started.
+    Refused(String),
+    /// It was killed.
+    Killed,
+}
+
+/// A rehearsal in retrospect.
+pub struct Rehearsed {
+    /// How the host ended, and when.
+    pub ending: Ending,
+    /// Virtual time of the host's end.
+    pub ended_at: Micros,
+    /// The host didn't end in time.
+    pub overran: bool,
+    /// What truly happened.
+    pub witness: Witness,
+    /// What went wrong, and when.
+    pub script: Script,
+}
+
+impl Trial {
+    /// Runs it.
+    ///
+    /// # Errors
+    /// A rig that can't be simulated, or a cause that its plant can't have.
+    pub fn run(&self) -> Result<Rehearsed, BoardError> {
+        let mut stage = self.stage()?;
+        let stop = stage.user_stops();
+        let ending = match Session::connect(&mut stage, NUMBER, HELLO_PATIENCE) {
+            Err(error) => Ending::Refused(error.to_string()),
+            Ok(mut session) => {
+                let deployment = Deployment {
+                    schedule: &self.schedule,
+                    rig: &self.rig,
+                    run: NUMBER,
+                    clear: false,
+                    interrupted: &|| stop.get(),
+                };
+                match deploy(&mut session, &deployment, &mut EventLog::new(io::sink()), &mut |_| {}) {
+                    Ok(report) => Ending::Report(report),
+                    Err(error) => Ending::Refused(error.to_string()),
+                }
+            }
+        };
+        let ending = if stage.host_is_killed() { Ending::Killed } else { ending };
+        let (ended_at, overran) = (stage.board().now(), stage.is_over());
+        watch(&mut stage, ended_at.plus(self.afterwards))?;
+        let (witness, script) = stage.into_parts();
+        Ok(Rehearsed { ending, ended_at, overran, witness, script })
+    }
+
+    fn stage(&self) -> Result<Stage, BoardError> {
+        let board = Board::new(&self.plant, channels(&self.rig)?, NUMBER)?;
+        let witness = Witness::new(&self.schedule, self.bounds(), &board, self.log);
+        let mut stage = Stage::new(board, witness, Script::new(self.causes.clone()), self.seed)
+            .until(Micros(0).plus(self.most));
+        for (way, impairment) in &self.line {
+            stage.impair(*way, *impairment);
+        }
+        Ok(stage)
+    }
+
+    /// Silence of the host after which the MCU turns everything off.
+    pub(crate) fn link_timeout(&self) -> Millis {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 to 5,000 by the rules of the rig file"
+        )]
+        let ms = (self.rig.link.timeout.0 * 1e3).round() as u32;
+        Millis(ms)
+    }
+
+    fn bounds(&self) -> Watch {
+        let limit_a = self.schedule.supply_limit.0 as f64 / 1e3;
+        let noise_a = NOISE_SIGMAS * self.plant.supply.current_noise_ma / 1e3;
+        let timeout = self.link_timeout();
+        Watch {
+            most_a: limit_a * (1.0 + CURRENT_MARGIN_PER_CENT / 100.0) + noise_a,
+            link_timeout: Millis(timeout.0 + LINK_GRACE.0),
+        }
+    }
+}
+
+/// Lets time pass without a host.
+fn watch(stage: &mut Stage, until: Micros) -> Result<(), PlantError> {
+    while stage.board().now() < until {
+        stage.step(until)?;
+    }
+    Ok(())
+}
