@@ -80,7 +80,7 @@ pub enum What {
 impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Break(fault) => write!(f, "{fault:?}"),
+            Self::Break(fault) => f.write_str(&broken(*fault)),
             Self::Reset(cause) => write!(f, "MCU reset ({cause:?})"),
             Self::StopButton(true) => write!(f, "stop button pressed"),
             Self::StopButton(false) => write!(f, "stop button released"),
@@ -101,6 +101,29 @@ impl fmt::Display for What {
             Self::Replay => write!(f, "frames replayed"),
             Self::Garbage(count) => write!(f, "{count} bytes of noise"),
         }
+    }
+}
+
+/// A fault of the plant in words.
+fn broken(fault: Fault) -> String {
+    match fault {
+        Fault::ThermistorOpen(at) => format!("thermistor {at} open"),
+        Fault::ThermistorShorted(at) => format!("thermistor {at} shorted"),
+        Fault::ThermistorFrozen(at) => format!("thermistor {at} frozen"),
+        Fault::ThermistorLoose(at) => format!("thermistor {at} loose"),
+        Fault::ThermistorDrifting { channel, kelvin_per_s } => {
+            format!("thermistor {channel} drifts {kelvin_per_s:+.2} K/s")
+        }
+        Fault::HeaterOpen(at) => format!("heater {at} open"),
+        Fault::HeaterShorted { channel, ohm } => format!("heater {channel} shorted to {ohm:.2} ohm"),
+        Fault::MosfetStuckOn(at) => format!("MOSFET {at} stuck on"),
+        Fault::Jammed(hinge) => format!("{hinge} jammed"),
+        Fault::ServoStalled(at) => format!("servo {at} stalled"),
+        Fault::SupplyCut => "supply cut".to_owned(),
+        Fault::SupplySag { open_circuit_v, source_ohm } => {
+            format!("supply sags to {open_circuit_v:.2} V, {source_ohm:.2} ohm")
+        }
+        Fault::SupplyRestored => "supply restored".to_owned(),
     }
 }
 

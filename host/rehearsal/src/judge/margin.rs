@@ -60,6 +60,7 @@ mod tests {
 
     #[test]
     fn no_hinge_gets_further_above_its_limit_than_the_margin() {
+        let mut nearest = 0.0_f64;
         for ohm in [25.0, 12.5, 5.0] {
             for (film_j_per_k, coupling_w_per_k, lag_s) in
                 [(0.012, 0.075, 0.3), (0.03, 0.04, 0.1), (0.006, 0.15, 0.8)]
@@ -69,9 +70,10 @@ mod tests {
                 for limit_c in [60.0, 72.0, 110.0] {
                     let (got, most) = (overshoot_k(sma, limit_c), margin_k(&sma, 5.0, ohm, limit_c));
                     assert!(got <= most, "{got} K over {limit_c} °C with {ohm} ohm, at most {most} K");
-                    assert!(got > 0.05 * most, "{got} K of {most} K: the margin says nothing");
+                    nearest = nearest.max(got / most);
                 }
             }
         }
+        assert!(nearest > 0.5, "at most {nearest} of the margin is ever used: it says nothing");
     }
 }

@@ -211,6 +211,9 @@ pub(super) enum Since {
     #[default]
     #[serde(rename = "cause")]
     Cause,
+    /// The start of the run.
+    #[serde(rename = "start")]
+    Start,
     /// The link timeout after the last frame of the host that reached the board.
     #[serde(rename = "link loss")]
     LinkLoss,

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use zygote_controller::Outcome;
 use zygote_deployment::Seconds;
-use zygote_protocol::{FaultCode, Micros};
+use zygote_protocol::{FaultCode, Micros, State};
 
 /// One thing that was expected.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -102,6 +102,10 @@ fn times(expect: &ExpectTable, trial: &Trial, rehearsed: &Rehearsed) -> Vec<Row>
     let cause = rehearsed.script.time_of(0).unwrap_or_default();
     let (since, name) = match expect.since {
         Since::Cause => (cause, "cause"),
+        Since::Start => {
+            let running = witness.states.iter().find(|(_, state)| *state == State::Running);
+            (running.map_or(Micros(0), |(at, _)| *at), "start")
+        }
         Since::LinkLoss => {
             let last = witness.heard.last_frame.unwrap_or_default();
             (last.plus(trial.link_timeout()), "link loss")
