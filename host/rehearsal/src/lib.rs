@@ -8,6 +8,7 @@
 //! ```
 
 mod board;
+pub mod campaign;
 mod cause;
 mod judge;
 mod run;
