@@ -10,26 +10,48 @@ use zygote_sim::plant::Fault;
 struct Gap {
     rule: &'static str,
     about: &'static str,
-    needs: fn(&What) -> bool,
+    /// Of what happened, all of these.
+    needs: &'static [fn(&What, &Breach) -> bool],
 }
 
 const GAPS: &[Gap] = &[
     Gap {
         rule: "S4",
-        about: "S5: a frozen thermistor isn't recognised, so its hinge heats until the longest on-time",
-        needs: |what| matches!(what, What::Break(Fault::ThermistorFrozen(_))),
+        about: "S5: a frozen thermistor isn't recognised; its hinge heats until the longest on-time",
+        needs: &[|what, breach| {
+            matches!(what, What::Break(Fault::ThermistorFrozen(channel)) if Some(*channel) == breach.heater)
+        }],
     },
     Gap {
-        rule: "S12",
+        rule: "end",
+        about: "S5: a frozen thermistor isn't recognised; its hinge cools for ever",
+        needs: &[|what, _| matches!(what, What::Break(Fault::ThermistorFrozen(_)))],
+    },
+    Gap {
+        rule: "end",
+        about: "S6: cooling has no longest time; a hinge that a stuck MOSFET keeps just warm cools for ever",
+        needs: &[|what, _| matches!(what, What::Break(Fault::MosfetStuckOn(_)))],
+    },
+    Gap {
+        rule: "end",
         about: "a host whose commands don't get through, but who hears the board, waits for ever",
-        needs: |what| matches!(what, What::Cut(Way::ToBoard, None)),
+        needs: &[|what, _| matches!(what, What::Cut(Way::ToBoard, None))],
+    },
+    Gap {
+        rule: "S11",
+        about: "S11: a session that is replayed from its hello on is executed again, after a reset or another session",
+        needs: &[
+            |what, _| matches!(what, What::Replay),
+            |what, _| matches!(what, What::Reset(_) | What::SecondHost),
+        ],
     },
 ];
 
 /// The gap that a breach belongs to.
 pub(super) fn gap(rehearsed: &Rehearsed, breach: &Breach) -> Option<&'static str> {
-    let fits = |gap: &&Gap| {
-        gap.rule == breach.rule && rehearsed.script.happened().any(|(_, what)| (gap.needs)(what))
+    let happened = |need: &fn(&What, &Breach) -> bool| {
+        rehearsed.script.happened().any(|(_, what)| need(what, breach))
     };
+    let fits = |gap: &&Gap| gap.rule == breach.rule && gap.needs.iter().all(happened);
     GAPS.iter().find(fits).map(|gap| gap.about)
 }

@@ -47,6 +47,7 @@ fn undisturbed(trial: &Trial, rehearsed: &Rehearsed) -> Option<Breach> {
     (alone && !deployed).then(|| Breach {
         rule: "S12",
         at: rehearsed.ended_at,
+        heater: None,
         what: format!("nothing went wrong, and yet {:?}, {:?}", rehearsed.ending, rehearsed.witness.faults),
     })
 }

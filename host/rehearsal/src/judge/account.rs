@@ -9,7 +9,7 @@ pub(super) fn judge(rehearsed: &Rehearsed, excuses: &Excuses) -> Vec<Breach> {
     let mut breaches = order(rehearsed, excuses);
     breaches.extend(once(rehearsed));
     if rehearsed.overran {
-        breaches.push(Breach::new("S12", rehearsed.ended_at, "the host didn't end".to_owned()));
+        breaches.push(Breach::new("end", rehearsed.ended_at, "the host didn't end".to_owned()));
     }
     match &rehearsed.ending {
         Ending::Report(report) => breaches.extend(account(rehearsed, report, excuses)),

@@ -16,20 +16,16 @@ pub(super) fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
         let limit_c = f64::from(motion.max_temperature.0) / 100.0;
         let Some(bound) = bound(trial, rehearsed, step, limit_c, at) else { continue };
         let most_c = limit_c + bound.margin_k;
+        let breach =
+            |what: String| Breach { heater: Some(hinge.channel), ..Breach::new("S4", at, what) };
+        let truth = format!("hinge {} truly at {hottest_c:.1} °C", hinge.hinge);
         if hottest_c > most_c {
-            breaches.push(Breach::new(
-                "S4",
-                at,
-                format!("hinge {} truly at {hottest_c:.1} °C, limit {limit_c:.1} °C + {:.1} K of physics", hinge.hinge, bound.margin_k),
-            ));
+            let margin_k = bound.margin_k;
+            breaches.push(breach(format!("{truth}, limit {limit_c:.1} °C + {margin_k:.1} K of physics")));
         }
         let ceiling_c = f64::from(CEILING.max_temperature.0) / 100.0 + bound.over_ceiling_k;
         if hottest_c > ceiling_c {
-            breaches.push(Breach::new(
-                "S4",
-                at,
-                format!("hinge {} truly at {hottest_c:.1} °C, the board's ceiling is {ceiling_c:.1} °C", hinge.hinge),
-            ));
+            breaches.push(breach(format!("{truth}, the board's ceiling is {ceiling_c:.1} °C")));
         }
     }
     breaches

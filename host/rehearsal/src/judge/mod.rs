@@ -10,7 +10,8 @@
 //! | S8 | no current flows 10 ms after a stop, nor at all after a reset (S1) or another host's hello (S2) |
 //! | S10 | no actuator is driven before the hinges that it waits for are truly open |
 //! | S11 | one arming, one start, and no step starts twice |
-//! | S12 | the host ends, and what it reports of each hinge is so |
+//! | S12 | what the host reports of each hinge is so |
+//! | end | the host ends, whatever happens |
 //!
 //! What no sensor of the board can see excuses S10 and S12 for the hinge concerned: see [`excuse`].
 
@@ -34,13 +35,15 @@ pub struct Breach {
     pub rule: &'static str,
     /// When.
     pub at: Micros,
+    /// The heater channel concerned, where there is one.
+    pub heater: Option<usize>,
     /// What was the case, and what should have been.
     pub what: String,
 }
 
 impl Breach {
     fn new(rule: &'static str, at: Micros, what: String) -> Self {
-        Self { rule, at, what }
+        Self { rule, at, heater: None, what }
     }
 }
 
@@ -53,7 +56,7 @@ impl fmt::Display for Breach {
 /// Every rule that didn't hold.
 pub fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
     let excuses = Excuses::of(trial, rehearsed);
-    let mut breaches = off::judge(trial, rehearsed);
+    let mut breaches = off::judge(rehearsed);
     breaches.extend(heat::judge(trial, rehearsed));
     breaches.extend(account::judge(rehearsed, &excuses));
     breaches

@@ -2,8 +2,9 @@
 
 use super::{Breach, seconds};
 use crate::cause::What;
-use crate::run::{Rehearsed, Trial};
-use crate::witness::{Span, Witness};
+use crate::run::Rehearsed;
+use crate::witness::{HingeTruth, Span, Witness};
+use zygote_deployment::Kind;
 use zygote_protocol::{Micros, Millis};
 use zygote_sim::TICK;
 use zygote_sim::plant::Fault;
@@ -15,7 +16,7 @@ const SENSOR: Millis = Millis(100 + 3 * TICK.0);
 /// S7: three samples, one tick until they are taken and one in which the third acts.
 const OVER_CURRENT: Millis = Millis(5 * TICK.0);
 
-pub(super) fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
+pub(super) fn judge(rehearsed: &Rehearsed) -> Vec<Breach> {
     let witness = &rehearsed.witness;
     let mut breaches = Vec::new();
     for span in &witness.unarmed {
@@ -30,7 +31,7 @@ pub(super) fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
         breaches.push(Breach::new("S7", span.from, format!("over the limit and its margin for {} us", length(*span))));
     }
     for (at, what) in rehearsed.script.happened() {
-        if let Some((rule, deadline)) = deadline(trial, witness, at, what) {
+        if let Some((rule, deadline)) = deadline(witness, at, what) {
             let still = witness.energised.iter().find(|span| span.to > deadline && span.from < deadline);
             if let Some(span) = still {
                 let over = format!("{what}: current until {:.3} s, off was due at {:.3} s", seconds(span.to), seconds(deadline));
@@ -41,14 +42,13 @@ pub(super) fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
     breaches
 }
 
-/// The rule after which everything must be off, and by when; for causes that ask for it whatever else is the case.
-fn deadline(trial: &Trial, witness: &Witness, at: Micros, what: &What) -> Option<(&'static str, Micros)> {
+/// The rule after which everything must be off, and by when; for causes that ask for it whatever else is the case. A lost
+/// link is judged by the host's last frame, not here.
+fn deadline(witness: &Witness, at: Micros, what: &What) -> Option<(&'static str, Micros)> {
     match what {
         What::Break(Fault::ThermistorOpen(channel) | Fault::ThermistorShorted(channel)) => {
-            let used = |hinge: &crate::witness::HingeTruth| {
-                hinge.kind == zygote_deployment::Kind::Sma && hinge.channel == *channel
-            };
-            witness.hinges.iter().find(|hinge| used(hinge))?;
+            let used = |hinge: &&HingeTruth| hinge.kind == Kind::Sma && hinge.channel == *channel;
+            witness.hinges.iter().find(used)?;
             // Guards look while something is armed.
             let armed = witness.energised.iter().find(|span| span.to > at)?;
             Some(("S5", at.max(armed.from).plus(SENSOR)))
@@ -57,21 +57,15 @@ fn deadline(trial: &Trial, witness: &Witness, at: Micros, what: &What) -> Option
         What::StopButton(true) => Some(("S8", at.plus(STOP))),
         What::StopFrame => Some(("S8", at.plus(STOP))),
         What::SecondHost => Some(("S2", at.plus(STOP))),
-        What::KillHost => Some(("S3", at.plus(link_loss(trial)))),
         What::Break(_)
         | What::StopButton(false)
         | What::Cut(..)
         | What::Impair(..)
+        | What::KillHost
         | What::UserStops
         | What::Replay
         | What::Garbage(_) => None,
     }
-}
-
-/// From a host's last word to everything off. What it said before may still be under way on a slow line.
-fn link_loss(trial: &Trial) -> Millis {
-    let delay = trial.line.iter().map(|(_, line)| line.delay.0).max().unwrap_or(0);
-    Millis(trial.link_timeout().0 + crate::run::LINK_GRACE.0 + delay)
 }
 
 fn length(span: Span) -> u64 {
