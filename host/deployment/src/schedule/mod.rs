@@ -18,6 +18,7 @@ mod make;
 mod motion;
 mod problem;
 mod reduction;
+mod rest;
 mod reversed;
 mod search;
 mod timeline;
