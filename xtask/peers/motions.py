@@ -7,6 +7,7 @@ that in a motion that was certified free. `cargo xtask bench motion --peers` run
 """
 
 import json
+import math
 import sys
 import time
 from collections import Counter
@@ -35,7 +36,8 @@ def depth_of(one, other):
         return None
     result = fcl.CollisionResult()
     fcl.collide(one, other, DEEP, result)
-    return max(contact.penetration_depth for contact in result.contacts)
+    # What touches exactly it calls a collision when nothing more is asked, and finds no point of contact.
+    return max((contact.penetration_depth for contact in result.contacts), default=0.0)
 
 
 class Plates:
@@ -88,11 +90,11 @@ class Tally:
         self.ours += ours
         self.theirs += deep
         self.touches += depth is not None and not deep
-        # Below a touch both are right.
-        if ours and depth is None:
+        if ours and (depth is None or depth <= TOUCH < -gap):
             self.only_ours.append(-gap)
         if depth is not None and not ours:
-            self.only_theirs.append(depth)
+            # From what is between them for us to how deep they are for FCL.
+            self.only_theirs.append(depth + max(gap, 0.0) if gap is not None else math.inf)
         if free and depth is not None:
             self.deep_in_free += deep
             self.deepest_in_free = max(self.deepest_in_free, depth)

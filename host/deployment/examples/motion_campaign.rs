@@ -1,7 +1,7 @@
 //! The campaign: random solids of 10 to 60 panels in 1 to 4 piles, with panels of several thicknesses; every motion that is
 //! said to be free is looked at by the dense checker, one by one and at once; so are orders at random, hinge by hinge.
 //! A Markdown table, and exit code 1 where one was seen to collide. Arguments: number of solids; and a folder for
-//! the free plans with their orders, where other programs are to look at them too.
+//! the free plans with their orders, and for some of the random orders, where other programs are to look at them too.
 #![expect(clippy::print_stdout, reason = "its output is what it is for")]
 #![expect(clippy::unwrap_used, reason = "a tool for developers, as tests are")]
 
@@ -15,7 +15,7 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 use zygote_deployment::dense::{Setting, Verdict, verify};
-use zygote_deployment::motion::{Certificate, Effort, Options, Thickness, check, search, waits_for};
+use zygote_deployment::motion::{Certificate, Effort, Options, Report, Thickness, check, search, waits_for};
 use zygote_deployment::{Fingerprint, Order};
 use zygote_stacking::{Bridges, Model, Plan, Request, Surface, fold, plan};
 
@@ -27,6 +27,8 @@ const EFFORT: Effort = Effort { other_roots: 1, backward: 2, looks: 2_000 };
 /// Degrees from sample to sample, one by one and at once.
 const STEP_DEG: f64 = 0.5;
 const AT_ONCE: usize = 3;
+/// Of so many solids one has its random orders written for other programs.
+const RANDOM_FOR_OTHERS: u64 = 4;
 /// Deeper collisions than this are seen between two samples; panel lengths.
 const DEEP: f64 = 1e-3;
 
@@ -103,26 +105,30 @@ impl Case<'_> {
         }
         tally.free += 1;
         if let Some(folder) = folder {
-            let place = |hinge: &usize| order.hinges.iter().position(|other| other == hinge).unwrap();
-            let steps: Vec<_> = order
-                .hinges
-                .iter()
-                .map(|hinge| {
-                    let after: Vec<_> = order.waits_for[*hinge].iter().map(place).collect();
-                    json!({ "hinge": hinge, "after": after })
-                })
-                .collect();
-            let certificate = Certificate::of(&report, self.plates, self.ideal, None);
-            let schedule = json!({
-                "plan_crc64": Fingerprint::of(self.plan), "steps": steps, "certificate": certificate
-            });
-            let scheduled = Plan { schedule: Some(schedule), ..self.plan.clone() };
-            fs::write(folder.join(format!("{}.fold", self.name)), fold::write(&scheduled).unwrap()).unwrap();
+            self.write(folder, &self.name, &order, &report);
         }
     }
 
+    /// Writes the plan with an order and what was found of it.
+    fn write(&self, folder: &Path, name: &str, order: &Order, report: &Report) {
+        let place = |hinge: &usize| order.hinges.iter().position(|other| other == hinge).unwrap();
+        let steps: Vec<_> = order
+            .hinges
+            .iter()
+            .map(|hinge| {
+                let after: Vec<_> = order.waits_for[*hinge].iter().map(place).collect();
+                json!({ "hinge": hinge, "after": after })
+            })
+            .collect();
+        let certificate = Certificate::of(report, self.plates, self.ideal, None);
+        let schedule =
+            json!({ "plan_crc64": Fingerprint::of(self.plan), "steps": steps, "certificate": certificate });
+        let scheduled = Plan { schedule: Some(schedule), ..self.plan.clone() };
+        fs::write(folder.join(format!("{name}.fold")), fold::write(&scheduled).unwrap()).unwrap();
+    }
+
     /// Compares what is said of every hinge of an order at random with what is seen.
-    fn at_random(&self, stream: &mut Stream, tally: &mut Tally) {
+    fn at_random(&self, stream: &mut Stream, tally: &mut Tally, folder: Option<&Path>) {
         let mut hinges: Vec<_> = (0..self.plan.hinges.len()).collect();
         for place in (1..hinges.len()).rev() {
             hinges.swap(place, stream.below(place + 1));
@@ -131,7 +137,11 @@ impl Case<'_> {
         let blocked: BTreeSet<_> = report.collisions.iter().map(|(_, collision)| collision.hinge).collect();
         let deep = report.collisions.iter().filter(|(_, collision)| collision.depth > DEEP);
         let deep: BTreeSet<_> = deep.map(|(_, collision)| collision.hinge).collect();
-        let verdict = self.seen(&Order::one_by_one(hinges), 0);
+        let order = Order::one_by_one(hinges);
+        let verdict = self.seen(&order, 0);
+        if let Some(folder) = folder {
+            self.write(folder, &format!("{}-random", self.name), &order, &report);
+        }
         let seen: BTreeSet<_> = verdict.meetings.iter().map(|meeting| meeting.hinge).collect();
         for meeting in verdict.meetings.iter().filter(|meeting| !blocked.contains(&meeting.hinge)) {
             tally.faults.push(format!("{}: at random, proved free, but {meeting}", self.name));
@@ -180,7 +190,8 @@ fn main() -> ExitCode {
             if found.blocked == 0 {
                 case.free(&found.hinges, tally, folder);
             }
-            case.at_random(&mut stream, tally);
+            let for_others = folder.filter(|_| seed.is_multiple_of(RANDOM_FOR_OTHERS));
+            case.at_random(&mut stream, tally, for_others);
         }
     }
     println!("Seeds 0 to {}: {kept} solids of 10 to 60 panels ({pieces} in pieces).\n", solids.max(1) - 1);

@@ -1,10 +1,11 @@
 //! Poses of plans on their way, and our verdicts on them, for programs that look at collisions of boxes. Arguments: a folder;
-//! degrees from pose to pose; then plan files that hold a schedule with a certificate.
+//! degrees from pose to pose; `forwards`, or `backwards` for the last hinge of the schedule first, come what may; then plan files that
+//! hold a schedule with a certificate.
 //!
 //! Of every plan three files:
 //!
-//! * `NAME.json`: panels, half edges of a core, `touching` (deeper is a collision for us), `free` (whether the certificate
-//!   says that nothing collides), the number of poses and of `one_by_one` ones among them, which come first, and the seconds
+//! * `NAME.json`: panels, half edges of a core, `touching` (deeper is a collision for us), `free` (whether
+//!   nothing collides, as the certificate has it), the number of poses and of `one_by_one` ones among them, which come first, and the seconds
 //!   that our verdicts took.
 //! * `NAME.poses`: pose, panel, then the centre of its core and the directions of its three edges, as 12 doubles; only of
 //!   panels that aren't where the pose before had them.
@@ -26,7 +27,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use zygote_deployment::Order;
 use zygote_deployment::dense::Scheduled;
-use zygote_deployment::motion::{Cuboid, Linkage, Thickness};
+use zygote_deployment::motion::{Cuboid, Linkage, Options, Thickness, check};
 use zygote_stacking::fold;
 
 /// Runs of hinges at once, and moments of each that are looked at.
@@ -160,23 +161,29 @@ fn at_once(out: &mut Out, linkage: &Linkage, order: &Order) {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [folder, step, plans @ ..] = arguments.as_slice() else {
-        panic!("expected FOLDER DEGREES PLAN.fold...");
+    let [folder, step, way, plans @ ..] = arguments.as_slice() else {
+        panic!("expected FOLDER DEGREES forwards|backwards PLAN.fold...");
     };
     let (folder, step_deg) = (Path::new(folder), step.parse::<f64>().unwrap());
     assert!(step_deg > 0.0, "expected degrees above 0, found {step_deg}");
     for path in plans {
-        let name = Path::new(path).file_stem().unwrap().to_str().unwrap();
+        let stem = Path::new(path).file_stem().unwrap().to_str().unwrap();
         let mut plan = fold::read(&fs::read(path).unwrap()).unwrap();
         let schedule = plan.schedule.take().unwrap_or_else(|| panic!("{path}: no schedule"));
-        let Scheduled { order, certificate } = Scheduled::read(&plan, &schedule).unwrap();
+        let Scheduled { mut order, certificate } = Scheduled::read(&plan, &schedule).unwrap();
         let proved = certificate.unwrap_or_else(|| panic!("{path}: no certificate"));
         let plates = Thickness { thickness: proved.thickness, rim: proved.rim };
+        let (mut name, mut free) = (stem.to_owned(), proved.is_free());
+        if way == "backwards" {
+            name = format!("{stem}-backwards");
+            order = Order::one_by_one(order.hinges.into_iter().rev().collect());
+            free = check(&plan, &order.hinges, plates, &Options::default()).unwrap().is_free();
+        }
         let linkage = Linkage::new(&plan, plates).unwrap();
-        let mut out = Out::new(folder, name, plates);
+        let mut out = Out::new(folder, &name, plates);
         one_by_one(&mut out, &linkage, &order, step_deg);
         let poses_one_by_one = out.count;
-        if proved.is_free() {
+        if free {
             at_once(&mut out, &linkage, &order);
         }
         out.poses.flush().unwrap();
@@ -186,7 +193,7 @@ fn main() {
             "panels": plan.panels(),
             "half": out.half().to_array(),
             "touching": plates.touching(),
-            "free": proved.is_free(),
+            "free": free,
             "poses": out.count,
             "one_by_one": poses_one_by_one,
             "pairs": out.pairs_count,

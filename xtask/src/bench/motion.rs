@@ -124,15 +124,16 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
 
 /// FCL's verdicts beside ours, of plans in the order of their schedules.
 fn peers(poses: &Path, plans: &[PathBuf]) -> Result<()> {
-    let arguments = [poses.as_os_str(), OsStr::new(POSE_STEP)];
-    example_of("motion_poses", arguments.into_iter().chain(plans.iter().map(|plan| plan.as_os_str())))
-        .stdout(std::process::Stdio::null())
-        .status()
-        .context("cannot start the example `motion_poses`")
-        .and_then(|status| {
-            ensure!(status.success(), "the example `motion_poses` ended with {status}");
-            Ok(())
-        })?;
+    // In the wrong order there is more to see.
+    let of_2 = plans.iter().filter(|plan| {
+        let stem = plan.file_stem().unwrap_or_default().to_string_lossy();
+        !stem.starts_with("solid") && (stem.ends_with("-2") || stem.ends_with("-thick"))
+    });
+    for (way, plans) in [("forwards", plans.iter().collect()), ("backwards", of_2.collect::<Vec<_>>())] {
+        let arguments = [poses.as_os_str(), OsStr::new(POSE_STEP), OsStr::new(way)];
+        let arguments = arguments.into_iter().chain(plans.iter().map(|plan| plan.as_os_str()));
+        tools::output_of(&mut example_of("motion_poses", arguments))?;
+    }
     let scripts = tools::root().join("xtask/peers");
     let python =
         python::with_requirements(&tools::root().join("target/venv-motions"), &scripts.join("motions.txt"))?;
