@@ -99,9 +99,9 @@ fn cell(schedule: &Schedule) -> String {
     let seconds = |time: Millis| time.0 as f64 / 1e3;
     let makespan = seconds(schedule.makespan);
     if schedule.makespan == schedule.lower_bound {
-        format!("{makespan:.1} | proven |")
+        format!(" {makespan:.1} | proven |")
     } else {
-        format!("{makespan:.1} / {:.1} | {:.3} |", seconds(schedule.lower_bound), schedule.ratio())
+        format!(" {makespan:.1} / {:.1} | {:.3} |", seconds(schedule.lower_bound), schedule.ratio())
     }
 }
 
@@ -116,7 +116,7 @@ fn rows(name: &str, piles: usize, plan: &Plan, folder: &str) {
             let schedule = Schedule::plan(plan, &rig, &order, &Limits::default()).unwrap();
             longest = longest.max(begin.elapsed().as_secs_f64() * 1e3);
             schedule.verify(plan, &rig).unwrap();
-            cells += &format!(" {}", cell(&schedule));
+            cells += &cell(&schedule);
             if folder != "-" {
                 let title = format!("{name}, K = {piles}, {}, for {at_once}", driven.title);
                 let file = title.replace(", ", "-").replace(' ', "");

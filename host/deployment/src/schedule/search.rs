@@ -168,7 +168,9 @@ impl Best<'_> {
                 (form, _, Some((makespan, starts))) => {
                     let turned = form % 2 == 0;
                     let mut keys = if turned { until_end(problem, starts) } else { starts.clone() };
-                    keys.iter_mut().for_each(|key| *key += makespan / 2);
+                    for key in &mut keys {
+                        *key += makespan / 2;
+                    }
                     for _ in 0..=random.below(MOVED) {
                         let task = random.index(keys.len());
                         keys[task] = (keys[task] + random.below(*makespan)).saturating_sub(makespan / 2);
