@@ -251,7 +251,7 @@ fn fourteen_panels_are_scheduled_as_short_as_another_solver_proves() {
     }
     for (kinds, hold, limit, shortest) in SHORTEST {
         for ((name, plan), shortest) in plans.iter().zip(shortest) {
-            let entries: String = (0..plan.hinges.len())
+            let entries: Vec<String> = (0..plan.hinges.len())
                 .map(|hinge| {
                     format!("[[hinge]]\nhinge = {hinge}\nkind = \"{}\"\n", kinds[hinge % kinds.len()])
                 })
@@ -260,8 +260,9 @@ fn fourteen_panels_are_scheduled_as_short_as_another_solver_proves() {
             let rig = format!(
                 "version = 1\n[rig]\nid = \"14\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\n\
                  resistance = \"0 ohm\"\n[hinges]\ndefault = \"{}\"\n[servo]\ncurrent = \"{current} mA\"\n\
-                 hold_current = \"{hold} mA\"\n[[node]]\nname = \"one\"\nheaters = 13\nservos = 13\n{entries}",
-                kinds[0]
+                 hold_current = \"{hold} mA\"\n[[node]]\nname = \"one\"\nheaters = 13\nservos = 13\n{}",
+                kinds[0],
+                entries.concat()
             );
             let rig = Rig::read("rig.toml", &rig).expect("a good rig");
             let order = Order::of_tree(&Tree::new(plan).expect("a tree"));
