@@ -67,9 +67,11 @@ impl Snapshot {
     }
 }
 
+/// Words of a [`Retained`].
+pub const RETAINED_WORDS: usize = 2 + MAX_PAYLOAD / 4;
+
 /// A snapshot as it lies in memory that a reset leaves alone. Any bytes may be there; those of a snapshot carry a checksum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(C)]
 pub struct Retained {
     crc: u32,
     length: u32,
@@ -88,6 +90,24 @@ impl Retained {
             *to = *from;
         }
         Self { crc: crc32(&payload), length: u32::try_from(payload.len()).unwrap_or(0), bytes }
+    }
+
+    /// As words, for memory that is kept in words; [`Self::from_words`] gives it back.
+    pub fn to_words(&self) -> [u32; RETAINED_WORDS] {
+        let mut words = [self.crc, self.length].into_iter().chain(self.bytes.chunks_exact(4).map(|bytes| {
+            bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))
+        }));
+        core::array::from_fn(|_| words.next().unwrap_or(0))
+    }
+
+    /// Of words from memory, whatever they are.
+    pub fn from_words(words: &[u32; RETAINED_WORDS]) -> Self {
+        let [crc, length, payload @ ..] = words;
+        let mut bytes = [0; MAX_PAYLOAD];
+        for (bytes, word) in bytes.chunks_exact_mut(4).zip(payload) {
+            bytes.copy_from_slice(&word.to_le_bytes());
+        }
+        Self { crc: *crc, length: *length, bytes }
     }
 
     /// The snapshot, if there is one and it is whole.
@@ -144,6 +164,7 @@ mod tests {
         let snapshot = snapshot(STATES.into_iter());
         let retained = Retained::new(&snapshot);
         assert_eq!(retained.recall(), Some(snapshot));
+        assert_eq!(Retained::from_words(&retained.to_words()), retained);
         assert_eq!(Retained::NOTHING.recall(), None);
         let length = usize::try_from(retained.length).unwrap();
         for bit in 0..8 * length {
