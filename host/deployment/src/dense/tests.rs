@@ -117,8 +117,8 @@ fn boxes_found_near_each_other_give_the_verdict_of_all_pairs() {
         let order = Order::of_tree(&tree);
         let plates = Thickness { thickness: 0.05, rim: 0.05 };
         let coarse = Setting { step_deg: 10.0, at_once: 1, ..setting(plates) };
-        let every = verify_with(&plan, &order, &coarse, usize::MAX).expect("an order");
-        let near = verify_with(&plan, &order, &coarse, 0).expect("an order");
+        let every = verify_with(&plan, &order, &[], &coarse, usize::MAX).expect("an order");
+        let near = verify_with(&plan, &order, &[], &coarse, 0).expect("an order");
         assert!(near.pairs <= every.pairs);
         assert_eq!(near, Verdict { pairs: near.pairs, ..every });
         meetings += near.meetings.len();
