@@ -87,9 +87,9 @@ fn motion(arguments: &Arguments, bytes: &[u8]) -> Result<(), Failure> {
     };
     let scheduled = Scheduled::read(&plan, &value).with_context(|| name.to_string()).or_bad_input()?;
     let setting = setting(&arguments.motion, &scheduled).with_context(|| name.to_string()).or_bad_input()?;
-    let verdict =
-        verify_with_jumps(&plan, &scheduled.order, &scheduled.springs, &setting)
-        .with_context(|| name.to_string()).or_bad_input()?;
+    let verdict = verify_with_jumps(&plan, &scheduled.order, &scheduled.springs, &setting)
+        .with_context(|| name.to_string())
+        .or_bad_input()?;
     for meeting in verdict.meetings.iter().take(SHOWN_COLLISIONS) {
         say(meeting);
     }

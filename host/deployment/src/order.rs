@@ -88,7 +88,9 @@ impl Order {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WaitError {
     /// A hinge that the plan doesn't have.
-    #[error("hinge {hinge} is to wait or to be waited for, expected one of the plan's {hinges} hinges, numbered from 0")]
+    #[error(
+        "hinge {hinge} is to wait or to be waited for, expected one of the plan's {hinges} hinges, numbered from 0"
+    )]
     NoHinge {
         /// What was named.
         hinge: usize,
@@ -185,7 +187,8 @@ mod tests {
             refusal(&[(2, 3), (0, 3), (3, 1)]),
             "hinges would wait for each other in a circle: 1 for 0 for 3 for 1"
         );
-        let none = "hinge 4 is to wait or to be waited for, expected one of the plan's 4 hinges, numbered from 0";
+        let none =
+            "hinge 4 is to wait or to be waited for, expected one of the plan's 4 hinges, numbered from 0";
         assert_eq!((refusal(&[(4, 0)]), refusal(&[(0, 4)])), (none.to_owned(), none.to_owned()));
     }
 

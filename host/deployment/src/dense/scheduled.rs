@@ -59,7 +59,8 @@ impl Scheduled {
             let others: Option<Vec<_>> = step.after.iter().map(|after| hinges.get(*after).copied()).collect();
             *waits_for.get_mut(step.hinge).ok_or_else(refused)? = others.ok_or_else(refused)?;
         }
-        let springs = steps.iter().filter(|step| step.motion.kind == "spring").map(|step| step.hinge).collect();
+        let springs =
+            steps.iter().filter(|step| step.motion.kind == "spring").map(|step| step.hinge).collect();
         Ok(Self { order: Order { hinges, waits_for }, springs, certificate })
     }
 }

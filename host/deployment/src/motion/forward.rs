@@ -81,7 +81,9 @@ impl Forward {
                 if most.is_some_and(|most| blocked >= most) {
                     return None;
                 }
-                (0..ready.len()).filter(|place| may(ready[*place])).min_by(|a, b| depths[*a].total_cmp(&depths[*b]))?
+                (0..ready.len())
+                    .filter(|place| may(ready[*place]))
+                    .min_by(|a, b| depths[*a].total_cmp(&depths[*b]))?
             };
             let hinge = ready.remove(place);
             motion.open(hinge);

@@ -247,4 +247,40 @@ mod tests {
         hinges.sort_unstable();
         assert_eq!(hinges, (0..plan.hinges.len()).collect::<Vec<_>>());
     }
+
+    #[test]
+    fn an_order_is_found_with_the_waits_that_are_asked_for() {
+        let plan = planned("l14", &Request { piles: 2, ..Request::default() });
+        let thickness = Thickness::ideal(&plan);
+        let found = assert_free(&plan, thickness, &Effort::default());
+        let place = |hinges: &[usize], hinge| hinges.iter().position(|other| *other == hinge);
+        // Any two neighbours the other way round, from the root or from the end.
+        for pair in found.hinges.windows(2) {
+            let mut after = vec![Vec::new(); plan.hinges.len()];
+            after[pair[0]].push(pair[1]);
+            let other = search_after(&plan, thickness, None, &Effort::default(), &after, &mut |_, _| {})
+                .expect("plates");
+            assert!(place(&other.hinges, pair[1]) < place(&other.hinges, pair[0]), "{pair:?} {other:?}");
+            let report = check(&plan, &other.hinges, thickness, &Options::default()).expect("plates");
+            assert!(report.is_free(), "{pair:?}: {:?}", report.collisions.first());
+        }
+        // All of them the other way round is no order that is free.
+        let mut after = vec![Vec::new(); plan.hinges.len()];
+        found.hinges.windows(2).for_each(|pair| after[pair[0]].push(pair[1]));
+        let none = search_after(&plan, thickness, None, &Effort::default(), &after, &mut |_, _| {});
+        assert!(none.expect("plates").hinges.is_empty());
+    }
+
+    #[test]
+    fn several_free_orders_are_all_free_and_none_is_told_twice() {
+        let plan = planned("l14", &Request { piles: 2, bridges: Bridges::Base, ..Request::default() });
+        let thickness = Thickness::ideal(&plan);
+        let all = free_orders(&plan, thickness, None, &Effort::default(), &[]).expect("plates");
+        assert!(all.len() > 2, "{}", all.len());
+        for (number, found) in all.iter().enumerate() {
+            let report = check(&plan, &found.hinges, thickness, &Options::default()).expect("plates");
+            assert!(report.is_free(), "{found:?}");
+            assert!(all[..number].iter().all(|other| other.hinges != found.hinges));
+        }
+    }
 }

@@ -54,18 +54,22 @@ impl Loads {
         let key = |same: bool, key: &'static str, of: &dyn Fn(&Self) -> String| {
             (!same).then(|| (key, of(self), of(other)))
         };
-        key(near(self.panel_mass_g, other.panel_mass_g), "loads.panel_mass_g", &|of| of.panel_mass_g.to_string())
-            .or_else(|| key(self.gravity == other.gravity, "loads.gravity", &|of| format!("{:?}", of.gravity)))
-            .or_else(|| key(self.overloaded == other.overloaded, "loads.overloaded", &|of| format!("{:?}", of.overloaded)))
-            .or_else(|| {
-                let same = near(self.worst_factor, other.worst_factor);
-                key(same, "loads.worst_factor", &|of| of.worst_factor.to_string())
-            })
-            .or_else(|| {
-                let same = self.tips_in_step == other.tips_in_step;
-                key(same, "loads.tips_in_step", &|of| told(of.tips_in_step))
-            })
-            .or_else(|| key(margins, "loads.tipping_margin_mm", &|of| told(of.tipping_margin_mm)))
+        key(near(self.panel_mass_g, other.panel_mass_g), "loads.panel_mass_g", &|of| {
+            of.panel_mass_g.to_string()
+        })
+        .or_else(|| key(self.gravity == other.gravity, "loads.gravity", &|of| format!("{:?}", of.gravity)))
+        .or_else(|| {
+            key(self.overloaded == other.overloaded, "loads.overloaded", &|of| format!("{:?}", of.overloaded))
+        })
+        .or_else(|| {
+            let same = near(self.worst_factor, other.worst_factor);
+            key(same, "loads.worst_factor", &|of| of.worst_factor.to_string())
+        })
+        .or_else(|| {
+            let same = self.tips_in_step == other.tips_in_step;
+            key(same, "loads.tips_in_step", &|of| told(of.tips_in_step))
+        })
+        .or_else(|| key(margins, "loads.tipping_margin_mm", &|of| told(of.tipping_margin_mm)))
     }
 }
 
