@@ -1,4 +1,4 @@
-//! `zygote deploy`: runs a plan's schedule on a board or on the simulator, and reports.
+//! `zygote deploy`: runs a plan's schedule, or the way back, on a board or on the simulator, and reports.
 
 use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
@@ -13,7 +13,7 @@ use std::sync::atomic::Ordering;
 use zygote_controller::{
     Deployment, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport, deploy,
 };
-use zygote_deployment::{Kind, Rig, Schedule};
+use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_protocol::Millis;
 
 /// How long an answer to the hello is waited for.
@@ -34,16 +34,16 @@ pub(crate) struct Arguments {
     rig: PathBuf,
     #[command(flatten)]
     target: Target,
-    /// The schedule, where it doesn't stand in the plan
+    /// The schedule, where it doesn't stand in the plan; or the way back, as `zygote fold` writes it
     #[arg(long, value_name = "FILE")]
     schedule: Option<PathBuf>,
     /// Leave the safe state of an earlier fault or stop: you have looked at the rig
     #[arg(long)]
     clear: bool,
-    /// Event log, one JSON object a line [default: PLAN.events.jsonl]
+    /// Event log, one JSON object a line [default: beside plan or schedule, .events.jsonl]
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
-    /// Report as JSON [default: PLAN.report.json]
+    /// Report as JSON [default: beside plan or schedule, .report.json]
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Print the report as JSON
@@ -63,11 +63,11 @@ struct Target {
     sim: bool,
 }
 
-/// Deploys; succeeds only when every hinge is open.
+/// Runs; succeeds only when every hinge is at its angle.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plan = input::plan(&arguments.plan)?;
     let rig = input::rig(&arguments.rig)?;
-    let schedule = input::schedule(&arguments.plan, &plan, &rig, arguments.schedule.as_deref())?;
+    let schedule = input::run(&arguments.plan, &plan, &rig, arguments.schedule.as_deref())?;
     if let Some(device) = &arguments.target.port {
         let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
         let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule)?;
@@ -90,7 +90,8 @@ fn run_on<T: Transport>(
 ) -> Result<(RunReport, T), Failure> {
     let interrupted = interrupt::flag()?;
     let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
-    let log_path = beside(arguments.log.as_ref(), &arguments.plan, "events.jsonl");
+    let of = arguments.schedule.as_ref().unwrap_or(&arguments.plan);
+    let log_path = beside(arguments.log.as_ref(), of, "events.jsonl");
     let mut log = EventLog::new(BufWriter::new(LateFile::new(log_path.clone())));
     let deployment = Deployment {
         schedule,
@@ -103,7 +104,7 @@ fn run_on<T: Transport>(
     let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
     bar.finish_and_clear();
     let report = outcome.or_failed()?;
-    let report_path = beside(arguments.report.as_ref(), &arguments.plan, "report.json");
+    let report_path = beside(arguments.report.as_ref(), of, "report.json");
     let json = serde_json::to_vec_pretty(&report).or_failed()?;
     write_file(&report_path, &json)?;
     if arguments.json {
@@ -116,9 +117,9 @@ fn run_on<T: Transport>(
     Ok((report, session.into_transport()))
 }
 
-/// The file asked for, else one beside the plan.
-fn beside(asked: Option<&PathBuf>, plan: &Path, ending: &str) -> PathBuf {
-    asked.cloned().unwrap_or_else(|| plan.with_extension(ending))
+/// The file asked for, else one beside what is run.
+fn beside(asked: Option<&PathBuf>, run: &Path, ending: &str) -> PathBuf {
+    asked.cloned().unwrap_or_else(|| run.with_extension(ending))
 }
 
 fn tell_log_error(log: &EventLog, path: &Path) -> Result<(), Failure> {
@@ -132,14 +133,18 @@ fn tell_log_error(log: &EventLog, path: &Path) -> Result<(), Failure> {
 }
 
 fn judge(report: &RunReport) -> Result<(), Failure> {
-    if report.is_deployed() { Ok(()) } else { Err(Failure::Failed(anyhow!("the shape is not deployed"))) }
+    let what = match report.direction {
+        Direction::Deploy => "deployed",
+        Direction::Fold => "folded",
+    };
+    if report.is_complete() { Ok(()) } else { Err(Failure::Failed(anyhow!("the shape is not {what}"))) }
 }
 
 /// A bar on the error output, which is nothing where that is no terminal.
 fn progress_bar(steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(u64::try_from(steps).unwrap_or(u64::MAX));
     // The template is a constant of ours; if it were wrong, the plain bar would do.
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} hinges open, {elapsed}  {msg}") {
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} hinges, {elapsed}  {msg}") {
         bar.set_style(style);
     }
     bar

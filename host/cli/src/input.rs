@@ -33,7 +33,19 @@ pub(crate) fn schedule(
     Ok(schedule)
 }
 
-/// The same for verbs that know no rig, with the name of its file: nothing is verified.
+/// What may be run: such a schedule, or the way back that `zygote fold` made of it.
+pub(crate) fn run(
+    plan_path: &Path,
+    plan: &Plan,
+    rig: &Rig,
+    beside: Option<&Path>,
+) -> Result<Schedule, Failure> {
+    let (name, schedule) = unverified_schedule(plan_path, plan, beside)?;
+    schedule.verify_either_way(plan, rig).context(name).or_bad_input()?;
+    Ok(schedule)
+}
+
+/// A schedule for verbs that know no rig, with the name of its file: nothing is verified.
 pub(crate) fn unverified_schedule(
     plan_path: &Path,
     plan: &Plan,

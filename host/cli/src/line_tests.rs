@@ -114,7 +114,7 @@ fn a_deployment_survives_a_line_that_damages_one_byte_in_300() {
     let (rig, schedule) = job();
     let (report, _) = run(line(&rig, &schedule, 300, NEVER), &rig, &schedule, |_| false);
     let report = report.unwrap();
-    assert!(report.is_deployed(), "{report}");
+    assert!(report.is_complete(), "{report}");
     assert!(report.damaged_frames > 10, "{} damaged frames are no bad line", report.damaged_frames);
 }
 
@@ -152,7 +152,7 @@ fn a_stopped_board_wants_a_person_before_the_next_run() {
     let refused = deploy(&mut session, &deployment, &mut log, &mut |_| {});
     assert!(matches!(refused, Err(DeployError::Safe { fault: Some(_) })), "{refused:?}");
     let cleared = Deployment { clear: true, ..deployment };
-    assert!(deploy(&mut session, &cleared, &mut log, &mut |_| {}).unwrap().is_deployed());
+    assert!(deploy(&mut session, &cleared, &mut log, &mut |_| {}).unwrap().is_complete());
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod assembly;
 mod check;
 mod checked_order;
 mod deploy;
+mod export;
 mod failure;
 mod fold_back;
 mod identity;

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, fold_back, net, picture, plan, reconfigure, schedule, sequence,
-    sim, table, tolerance, torque,
+    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, schedule,
+    sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -32,6 +32,8 @@ pub(crate) enum Verb {
     Torque(torque::Arguments),
     /// Draw a plan: stack, shape, the way between them, or its schedule
     Picture(picture::Arguments),
+    /// Write a plan as a file of another program: an animated scene
+    Export(export::Arguments),
     /// Run a plan's schedule backwards: what folds the shape up again, with servos alone
     Fold(fold_back::Arguments),
     /// List what to turn by hand, hinge after hinge, where nothing is driven
@@ -55,6 +57,7 @@ impl Verb {
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Export(arguments) => export::run(&arguments),
             Self::Fold(arguments) => fold_back::run(&arguments),
             Self::Assembly(arguments) => assembly::run(&arguments),
             Self::Table(arguments) => table::run(&arguments),

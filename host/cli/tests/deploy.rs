@@ -259,3 +259,38 @@ fn the_report_is_printed_as_json_on_request() {
     assert_eq!(report["outcome"], "deployed");
     assert_eq!(report["hinges"].as_array().unwrap().len(), 13);
 }
+
+#[test]
+fn servos_fold_the_shape_up_again() {
+    let place = Scratch::new("folds_back");
+    let rig = model("rigs/servo-160.toml");
+    assert_eq!(deploy(&place, "l14.txt", 2, &rig, 2).code, 0);
+    let there = place.read("plan.report.json");
+    assert_eq!(place.zygote(&["fold", "plan.fold", "--rig", &rig, "-o", "back.json"]).code, 0);
+    let run = place.zygote(&["deploy", "plan.fold", "--schedule", "back.json", "--rig", &rig, "--sim"]);
+    assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    for line in ["folded: 13 of 13 hinges are closed", "true angles: 13 of 13 hinges within 1°"] {
+        assert!(run.output.contains(line), "{line:?} isn't in {}", run.output);
+    }
+    let report: Value = serde_json::from_str(&place.read("back.report.json")).unwrap();
+    assert_eq!((&report["direction"], &report["outcome"]), (&"fold".into(), &"folded".into()));
+    assert_eq!(place.read("plan.report.json"), there, "the report of the way there is kept");
+}
+
+#[test]
+fn a_way_back_that_was_changed_is_refused() {
+    let place = Scratch::new("changed_back");
+    let rig = model("rigs/servo-160.toml");
+    assert_eq!(deploy(&place, "i14.txt", 2, &rig, 1).code, 0);
+    assert_eq!(place.zygote(&["fold", "plan.fold", "--rig", &rig, "-o", "back.json"]).code, 0);
+    let mut back: Value = serde_json::from_str(&place.read("back.json")).unwrap();
+    back["steps"][0]["opening_deg"] = 90.into();
+    place.write("back.json", &back.to_string());
+    let run = place.zygote(&["deploy", "plan.fold", "--schedule", "back.json", "--rig", &rig, "--sim"]);
+    assert_eq!(run.code, 2, "{}", run.output);
+    assert!(
+        run.errors.contains("back.json") && run.errors.contains("opening_deg should be"),
+        "{}",
+        run.errors
+    );
+}

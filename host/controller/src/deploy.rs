@@ -2,7 +2,7 @@
 
 use crate::event_log::{EventLog, Record};
 use crate::program::{self, ProgramError};
-use crate::report::{Outcome, RunReport};
+use crate::report::{Outcome, RunReport, complete};
 use crate::session::{Notice, RequestError, Session, SessionError};
 use crate::{MotionState, Transport};
 use zygote_deployment::{Fitting, Rig, RigError, Schedule};
@@ -190,7 +190,7 @@ struct Watch<'a> {
 }
 
 impl Watch<'_> {
-    /// Watches until every hinge is open, something fails, or the user wants to stop.
+    /// Watches until every hinge is at its angle, something fails, or the user wants to stop.
     fn until_the_end<T: Transport>(
         &mut self,
         session: &mut Session<T>,
@@ -213,7 +213,7 @@ impl Watch<'_> {
                 Some(Notice::Telemetry(telemetry)) => show(&self.take_telemetry(now, &telemetry)),
             }
             if self.finished {
-                return Outcome::Deployed;
+                return complete(self.report.direction);
             }
         }
     }

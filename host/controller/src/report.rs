@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use std::fmt;
-use zygote_deployment::{Kind, Schedule};
+use zygote_deployment::{Direction, Kind, Schedule};
 use zygote_protocol::{LinkCounters, StepState};
 
 /// How a run ended.
@@ -11,6 +11,8 @@ use zygote_protocol::{LinkCounters, StepState};
 pub enum Outcome {
     /// Every hinge is open.
     Deployed,
+    /// Every hinge is closed again.
+    Folded,
     /// The user stopped it, and the MCU confirmed.
     Stopped,
     /// The MCU turned everything off.
@@ -23,7 +25,7 @@ pub enum Outcome {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HingeOutcome {
-    /// Open.
+    /// Open, or closed where the run folds the shape up.
     Opened,
     /// It was moving when everything went off; its angle isn't known.
     Interrupted,
@@ -44,9 +46,9 @@ pub struct HingeReport {
     pub outcome: HingeOutcome,
     /// When it started, s.
     pub started_s: Option<f64>,
-    /// When it was open, s.
+    /// When it was at its angle, s.
     pub opened_s: Option<f64>,
-    /// When it was open and cool, s.
+    /// When it was at its angle and cool, s.
     pub done_s: Option<f64>,
     /// Highest temperature measured, °C.
     pub peak_c: Option<f64>,
@@ -63,12 +65,14 @@ pub struct RunReport {
     pub board: String,
     /// Version of its firmware.
     pub firmware: String,
+    /// Which way it went.
+    pub direction: Direction,
     /// How it ended.
     #[serde(flatten)]
     pub outcome: Outcome,
     /// MCU time from the start to the end of the run, s.
     pub duration_s: f64,
-    /// Time that the schedule expected until the last hinge is open, s.
+    /// Time that the schedule expected until the last hinge is at its angle, s.
     pub expected_s: f64,
     /// The hinges, in the order of the steps.
     pub hinges: Vec<HingeReport>,
@@ -102,6 +106,7 @@ impl RunReport {
             rig: schedule.rig.clone(),
             board: board.to_owned(),
             firmware: firmware.to_owned(),
+            direction: schedule.direction(),
             outcome: Outcome::Deployed,
             duration_s: 0.0,
             #[expect(clippy::cast_precision_loss, reason = "a makespan is far below 2^52 ms")]
@@ -137,9 +142,17 @@ impl RunReport {
         self.hinges.iter().filter(|hinge| hinge.outcome == outcome).count()
     }
 
-    /// Every hinge is open.
-    pub fn is_deployed(&self) -> bool {
-        self.outcome == Outcome::Deployed && self.count(HingeOutcome::Opened) == self.hinges.len()
+    /// Every hinge is at its angle.
+    pub fn is_complete(&self) -> bool {
+        self.outcome == complete(self.direction) && self.count(HingeOutcome::Opened) == self.hinges.len()
+    }
+}
+
+/// How a run that goes this way ends if nothing goes wrong.
+pub(crate) fn complete(direction: Direction) -> Outcome {
+    match direction {
+        Direction::Deploy => Outcome::Deployed,
+        Direction::Fold => Outcome::Folded,
     }
 }
 
@@ -151,6 +164,7 @@ fn advice(outcome: &Outcome, interrupted: usize) -> String {
     };
     match outcome {
         Outcome::Deployed => "nothing: every hinge is open".to_owned(),
+        Outcome::Folded => "nothing: every hinge is closed".to_owned(),
         Outcome::Stopped | Outcome::Fault(_) => {
             format!("{look}; mend what is wrong, fold the structure back, and deploy again with --clear")
         }
@@ -163,12 +177,15 @@ fn advice(outcome: &Outcome, interrupted: usize) -> String {
 impl fmt::Display for RunReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (total, opened) = (self.hinges.len(), self.count(HingeOutcome::Opened));
+        let (done, at_angle) = match self.direction {
+            Direction::Deploy => ("deployed", "open"),
+            Direction::Fold => ("folded", "closed"),
+        };
+        let hinges = format!("{opened} of {total} hinges are {at_angle}");
         match &self.outcome {
-            Outcome::Deployed => writeln!(f, "deployed: {opened} of {total} hinges are open")?,
-            Outcome::Stopped => writeln!(f, "stopped: {opened} of {total} hinges are open")?,
-            Outcome::Fault(why) | Outcome::Lost(why) => {
-                writeln!(f, "not deployed: {opened} of {total} hinges are open; {why}")?;
-            }
+            Outcome::Deployed | Outcome::Folded => writeln!(f, "{done}: {hinges}")?,
+            Outcome::Stopped => writeln!(f, "stopped: {hinges}")?,
+            Outcome::Fault(why) | Outcome::Lost(why) => writeln!(f, "not {done}: {hinges}; {why}")?,
         }
         for (name, outcome) in
             [("interrupted", HingeOutcome::Interrupted), ("not moved", HingeOutcome::NotMoved)]
@@ -181,7 +198,7 @@ impl fmt::Display for RunReport {
         }
         writeln!(
             f,
-            "duration: {:.1} s (expected {:.1} s until the last hinge is open)",
+            "duration: {:.1} s (expected {:.1} s until the last hinge is {at_angle})",
             self.duration_s, self.expected_s
         )?;
         let peak = self.hinges.iter().filter_map(|hinge| hinge.peak_c).fold(f64::NEG_INFINITY, f64::max);

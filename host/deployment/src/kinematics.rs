@@ -17,10 +17,10 @@ pub struct Kinematics {
 
 /// A hinge as a joint from the panel nearer to the root to the one that it moves.
 #[derive(Debug, Clone)]
-struct Joint {
-    hinge: usize,
-    parent: usize,
-    child: usize,
+pub(crate) struct Joint {
+    pub(crate) hinge: usize,
+    pub(crate) parent: usize,
+    pub(crate) child: usize,
     /// Where the child is in the parent's frame, in the zygote.
     parent_from_child: DAffine3,
     /// A corner on the hinge, in the parent's frame.
@@ -28,9 +28,21 @@ struct Joint {
     /// Direction of the hinge, in the parent's frame: the parent lies on its left, seen from outside.
     axis: DVec3,
     /// Turn about the axis from the zygote to the target, radians.
-    turn: f64,
+    pub(crate) turn: f64,
     /// Heights of the child above the parent in their pile, along the parent's outer normal.
-    lift: f64,
+    pub(crate) lift: f64,
+}
+
+impl Joint {
+    /// The child's frame in the parent's, with the hinge at a fraction of its turn and such a thickness.
+    pub(crate) fn parent_from_child(&self, fraction: f64, thickness: f64) -> DAffine3 {
+        let turn = DQuat::from_axis_angle(self.axis.normalize(), self.turn * fraction);
+        let lift = DVec3::Z * (self.lift * thickness * (1.0 - fraction));
+        DAffine3::from_translation(self.anchor)
+            * DAffine3::from_quat(turn)
+            * DAffine3::from_translation(lift - self.anchor)
+            * self.parent_from_child
+    }
 }
 
 /// The frame of a panel: origin at corner 0, x along its first edge, z to its outer side.
@@ -101,6 +113,17 @@ impl Kinematics {
         Ok(Self { root, zygote_from_panel, joints, corners, target_from_zygote })
     }
 
+    /// The joints; each comes after that of its parent.
+    pub(crate) fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The root's frame in the space of the zygote, which stands on z = 0.
+    pub(crate) fn root_pose(&self, thickness: f64) -> DAffine3 {
+        DAffine3::from_translation(DVec3::Z * (thickness * self.root_height()))
+            * self.zygote_from_panel[self.root]
+    }
+
     /// How many panels there are.
     pub fn panels(&self) -> usize {
         self.corners.len()
@@ -119,16 +142,11 @@ impl Kinematics {
     pub fn corners(&self, fractions: &[f64], thickness: f64) -> Vec<[DVec3; 4]> {
         let mut poses = self.zygote_from_panel.clone();
         if let Some(root) = poses.get_mut(self.root) {
-            root.translation.z += thickness * self.root_height();
+            *root = self.root_pose(thickness);
         }
         for joint in &self.joints {
             let fraction = fractions.get(joint.hinge).copied().unwrap_or(0.0);
-            let turn = DQuat::from_axis_angle(joint.axis.normalize(), joint.turn * fraction);
-            let lift = DVec3::Z * (joint.lift * thickness * (1.0 - fraction));
-            let parent_from_unturned = DAffine3::from_translation(joint.anchor)
-                * DAffine3::from_quat(turn)
-                * DAffine3::from_translation(lift - joint.anchor);
-            poses[joint.child] = poses[joint.parent] * parent_from_unturned * joint.parent_from_child;
+            poses[joint.child] = poses[joint.parent] * joint.parent_from_child(fraction, thickness);
         }
         poses.iter().zip(&self.corners).map(|(pose, corners)| corners_at(pose, corners)).collect()
     }

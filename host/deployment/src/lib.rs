@@ -8,7 +8,7 @@
 //! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
 //! plan + order -> dense --> the same seen again by sampling, with code of its own
 //! plan + rig + order -> statics --> torque on every hinge against its rating, tipping of the whole
-//! plan ------> Kinematics --> poses of all panels --> picture (SVG)
+//! plan ------> Kinematics --> poses of all panels --> picture (SVG), scene (animated glTF)
 //! ```
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
@@ -20,6 +20,7 @@ pub mod motion;
 mod order;
 pub mod picture;
 mod rig;
+pub mod scene;
 mod schedule;
 pub mod statics;
 pub mod table;

@@ -35,7 +35,12 @@ impl Scratch {
 
     #[allow(dead_code, reason = "not every test reads files")]
     pub(crate) fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.folder.join(name)).unwrap()
+        String::from_utf8(self.bytes(name)).unwrap()
+    }
+
+    #[allow(dead_code, reason = "not every test reads files")]
+    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.folder.join(name)).unwrap()
     }
 
     #[allow(dead_code, reason = "not every test writes files of its own")]

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// An sRGB colour; prints as `#rrggbb`, or `#rgb` where that is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Colour([u8; 3]);
+pub(crate) struct Colour([u8; 3]);
 
 /// Hues in degrees of OKLCH, for piles in their order: neighbours in the list lie far apart.
 const HUES: [f64; 8] = [235.0, 55.0, 150.0, 350.0, 95.0, 290.0, 190.0, 20.0];
@@ -20,14 +20,14 @@ fn hue(pile: usize) -> f64 {
 }
 
 /// The colour of a panel's side; `light` is 0 in shade and 1 in full light. The inner side is paler.
-pub(super) fn panel(pile: usize, outer: bool, light: f64) -> Colour {
+pub(crate) fn panel(pile: usize, outer: bool, light: f64) -> Colour {
     let light = (light.clamp(0.0, 1.0) * STEPS).round() / STEPS;
     let (low, high, chroma) = if outer { (0.50, 0.80, 0.115) } else { (0.62, 0.92, 0.035) };
     oklch(low + (high - low) * light, chroma, hue(pile))
 }
 
 /// The colour of a panel's edges.
-pub(super) fn edge(pile: usize) -> Colour {
+pub(crate) fn edge(pile: usize) -> Colour {
     oklch(0.34, 0.07, hue(pile))
 }
 
@@ -52,6 +52,14 @@ pub(super) fn scale(value: f64, outer: bool, light: f64) -> Colour {
     let lightness = 0.40 + 0.42 * value + 0.10 * light;
     let chroma = if outer { 0.13 } else { 0.07 };
     oklch(lightness, chroma, 280.0 - 190.0 * value)
+}
+
+impl Colour {
+    /// Linear shares of red, green and blue, and opaque.
+    pub(crate) fn linear(self) -> [f64; 4] {
+        let [r, g, b] = self.0.map(decode);
+        [r, g, b, 1.0]
+    }
 }
 
 /// From OKLCH (Ottosson 2020) to sRGB.
@@ -80,6 +88,12 @@ fn encode(linear: f64) -> u8 {
     byte
 }
 
+/// A byte of sRGB as a linear share of light.
+fn decode(byte: u8) -> f64 {
+    let encoded = f64::from(byte) / 255.0;
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
 impl fmt::Display for Colour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.0.iter().all(|byte| byte >> 4 == byte & 15) {
@@ -101,6 +115,11 @@ mod tests {
         assert_eq!(oklch(0.0, 0.0, 30.0).to_string(), "#000");
         let Colour([r, g, b]) = oklch(0.5, 0.0, 200.0);
         assert_eq!((r, g), (g, b));
+    }
+
+    #[test]
+    fn a_byte_of_light_comes_back() {
+        assert!((0..=255).all(|byte| encode(decode(byte)) == byte));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 mod animation;
 mod camera;
-mod colour;
+pub(crate) mod colour;
 mod document;
 mod film;
 mod gantt;

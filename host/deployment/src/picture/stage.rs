@@ -57,6 +57,11 @@ impl Timeline {
         Ok(Self { spans, end, scheduled: plan.schedule.is_some() })
     }
 
+    /// When a hinge starts and when it is opened; `None` if there is no such hinge.
+    pub fn span(&self, hinge: usize) -> Option<(f64, f64)> {
+        self.spans.get(hinge).copied()
+    }
+
     /// When the last hinge is opened: seconds, or hinges where there is no schedule.
     pub fn end(&self) -> f64 {
         self.end

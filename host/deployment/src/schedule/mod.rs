@@ -30,7 +30,7 @@ pub use fingerprint::Fingerprint;
 pub use make::{Limits, SchedulingError};
 pub(crate) use motion::start_opening_deg;
 pub use motion::{Motion, ServoMotion, SmaMotion, SpringMotion};
-pub use reversed::ReverseError;
+pub use reversed::{Direction, ReverseError};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
 

@@ -7,6 +7,7 @@ use super::{
     Fingerprint, MOST_AFTER, Milliamps, Millis, Motion, Schedule, ServoMotion, Step, VerifyError, reduction,
 };
 use crate::rig::{Kind, Rig};
+use serde::Serialize;
 use zygote_stacking::Plan;
 
 /// Why a schedule can't be run backwards.
@@ -47,7 +48,34 @@ pub enum ReverseError {
     Verify(#[from] VerifyError),
 }
 
+/// Which way a schedule goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Direction {
+    /// From the zygote to the target.
+    Deploy,
+    /// From the target to the zygote.
+    Fold,
+}
+
 impl Schedule {
+    /// Which way it goes: an opening angle that falls is on the way back.
+    pub fn direction(&self) -> Direction {
+        let falls = |step: &Step| step.opening_deg < step.from_opening_deg;
+        if self.steps.iter().any(falls) { Direction::Fold } else { Direction::Deploy }
+    }
+
+    /// Checks that this schedule may be run for this plan on this rig, whichever way it goes.
+    ///
+    /// # Errors
+    /// [`ReverseError`] with the first thing that is wrong.
+    pub fn verify_either_way(&self, plan: &Plan, rig: &Rig) -> Result<(), ReverseError> {
+        match self.direction() {
+            Direction::Deploy => Ok(self.verify(plan, rig)?),
+            Direction::Fold => self.verify_reversed(plan, rig),
+        }
+    }
+
     /// The same motions backwards: the last step first, each from its end to its start, after all that waited for it.
     ///
     /// # Errors
