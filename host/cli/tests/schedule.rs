@@ -106,7 +106,9 @@ fn a_hinge_waits_for_others_if_asked_to() {
     let folder = Folder::new("after");
     let schedule = |after: &[String], more: &[&str]| {
         let mut arguments = vec!["schedule", "plan.fold", "--rig", "rig.toml", "-o", "schedule.json"];
-        after.iter().for_each(|after| arguments.extend(["--after", after]));
+        for after in after {
+            arguments.extend(["--after", after]);
+        }
         arguments.extend(more);
         folder.zygote(&arguments)
     };
@@ -143,7 +145,9 @@ fn waits_that_no_order_keeps_are_refused_with_their_hinges() {
     let folder = Folder::new("after-refused");
     let refused = |after: &[&str], more: &[&str]| {
         let mut arguments = vec!["schedule", "plan.fold", "--rig", "rig.toml"];
-        after.iter().for_each(|after| arguments.extend(["--after", after]));
+        for after in after {
+            arguments.extend(["--after", after]);
+        }
         arguments.extend(more);
         folder.refused(&arguments)
     };

@@ -232,6 +232,7 @@ fn another_order_than_that_of_the_tree_needs_a_certificate_and_is_then_kept() {
 #[test]
 fn loads_that_are_not_those_of_the_rig_are_found() {
     use crate::statics::{Loads, Statics, Support};
+    type Reweigh = fn(&mut Loads);
     let plan = &crate::testing::real_plans()[1];
     let weighs = |extra: &str| rig(&format!("[panel]\nmass = \"20 g\"\n{extra}"));
     let schedule = planned(plan, &weighs(""), 1).expect("a schedule");
@@ -261,15 +262,15 @@ fn loads_that_are_not_those_of_the_rig_are_found() {
     }
     let weightless = refusal(&rig(""), same);
     assert!(weightless.contains("loads should be left out (rig.toml: panel.mass"), "{weightless}");
-    let changes: [(&str, &dyn Fn(&mut Loads)); 5] = [
-        ("loads.panel_mass_g should be 20, found 21", &|loads| loads.panel_mass_g += 1.0),
-        ("loads.overloaded should be", &|loads| loads.overloaded.clear()),
-        ("loads.worst_factor should be", &|loads| loads.worst_factor *= 0.5),
-        ("loads.tips_in_step should be", &|loads| loads.tips_in_step = Some(99)),
-        ("loads.tipping_margin_mm should be", &|loads| loads.tipping_margin_mm = Some(1e6)),
+    let changes: [(&str, Reweigh); 5] = [
+        ("loads.panel_mass_g should be 20, found 21", |loads| loads.panel_mass_g += 1.0),
+        ("loads.overloaded should be", |loads| loads.overloaded.clear()),
+        ("loads.worst_factor should be", |loads| loads.worst_factor *= 0.5),
+        ("loads.tips_in_step should be", |loads| loads.tips_in_step = Some(99)),
+        ("loads.tipping_margin_mm should be", |loads| loads.tipping_margin_mm = Some(1e6)),
     ];
     for (key, change) in changes {
-        let said = refusal(&weighs(""), change);
+        let said = refusal(&weighs(""), &change);
         assert!(said.contains(key), "{key}: {said}");
     }
 }

@@ -51,13 +51,14 @@ impl Loads {
             (Some(a), Some(b)) => near(a, b),
             (a, b) => a.is_none() && b.is_none(),
         };
+        let gravity = self.gravity.iter().zip(other.gravity).all(|(a, b)| near(*a, b));
         let key = |same: bool, key: &'static str, of: &dyn Fn(&Self) -> String| {
             (!same).then(|| (key, of(self), of(other)))
         };
         key(near(self.panel_mass_g, other.panel_mass_g), "loads.panel_mass_g", &|of| {
             of.panel_mass_g.to_string()
         })
-        .or_else(|| key(self.gravity == other.gravity, "loads.gravity", &|of| format!("{:?}", of.gravity)))
+        .or_else(|| key(gravity, "loads.gravity", &|of| format!("{:?}", of.gravity)))
         .or_else(|| {
             key(self.overloaded == other.overloaded, "loads.overloaded", &|of| format!("{:?}", of.overloaded))
         })
