@@ -94,9 +94,11 @@ impl Retained {
 
     /// As words, for memory that is kept in words; [`Self::from_words`] gives it back.
     pub fn to_words(&self) -> [u32; RETAINED_WORDS] {
-        let mut words = [self.crc, self.length].into_iter().chain(self.bytes.chunks_exact(4).map(|bytes| {
-            bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))
-        }));
+        let mut words = [self.crc, self.length].into_iter().chain(
+            self.bytes
+                .chunks_exact(4)
+                .map(|bytes| bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))),
+        );
         core::array::from_fn(|_| words.next().unwrap_or(0))
     }
 

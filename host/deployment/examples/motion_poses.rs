@@ -170,7 +170,7 @@ fn main() {
         let stem = Path::new(path).file_stem().unwrap().to_str().unwrap();
         let mut plan = fold::read(&fs::read(path).unwrap()).unwrap();
         let schedule = plan.schedule.take().unwrap_or_else(|| panic!("{path}: no schedule"));
-        let Scheduled { mut order, certificate } = Scheduled::read(&plan, &schedule).unwrap();
+        let Scheduled { mut order, certificate, .. } = Scheduled::read(&plan, &schedule).unwrap();
         let proved = certificate.unwrap_or_else(|| panic!("{path}: no certificate"));
         let plates = Thickness { thickness: proved.thickness, rim: proved.rim };
         let (mut name, mut free) = (stem.to_owned(), proved.is_free());

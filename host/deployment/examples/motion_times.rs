@@ -66,7 +66,7 @@ fn row(name: &str, plan: &Plan, order: &[usize], thickness: Thickness) {
 fn scheduled(path: &Path) {
     let mut plan = fold::read(&fs::read(path).unwrap()).unwrap();
     let schedule = plan.schedule.take().unwrap();
-    let Scheduled { order, certificate } = Scheduled::read(&plan, &schedule).unwrap();
+    let Scheduled { order, certificate, .. } = Scheduled::read(&plan, &schedule).unwrap();
     let proved = certificate.unwrap();
     let thickness = Thickness { thickness: proved.thickness, rim: proved.rim };
     row(path.file_stem().unwrap().to_str().unwrap(), &plan, &order.hinges, thickness);
