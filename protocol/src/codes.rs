@@ -77,5 +77,7 @@ codes! {
         NoGain = 11, "heating doesn't raise the temperature: loose thermistor or broken heater (rise and limit in 0.01 °C)";
         UnexpectedHeat = 12, "a heater that is off gets warm: shorted MOSFET (value and limit in 0.01 °C)";
         OverCurrent = 13, "the supply gives more current than allowed (value and limit in mA)";
+        SensorFrozen = 14, "a thermistor's reading stands still while the power of its heater changes (value in 0.01 °C, limit in ms)";
+        NoCooling = 15, "a heater that is off doesn't cool: shorted MOSFET, frozen thermistor or too hot a place (fall and least fall in 0.01 °C)";
     }
 }

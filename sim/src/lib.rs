@@ -8,7 +8,7 @@ mod line;
 pub mod plant;
 mod pty;
 
-pub use board::{Board, CEILING, SimCore, TICK};
+pub use board::{Board, CEILING, SimCore, Stuck, TICK};
 pub use chance::Chance;
 pub use device::Device;
 pub use line::{Impairment, Line, Wire};

@@ -3,6 +3,7 @@
 
 use crate::sim_rig::{self, SimTransport};
 use std::cell::Cell;
+use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 use zygote_controller::{
@@ -99,6 +100,7 @@ fn run(
         schedule,
         rig,
         run: 1,
+        open: &BTreeSet::new(),
         clear: false,
         interrupted: &|| interrupted(asked.replace(asked.get() + 1)),
     };
@@ -146,8 +148,14 @@ fn a_stopped_board_wants_a_person_before_the_next_run() {
     let (_, mut line) = run(line(&rig, &schedule, CLEAN, NEVER), &rig, &schedule, |asked| asked > 100);
     line.random = 1;
     let mut session = Session::connect(line, 10, Millis(5_000)).unwrap();
-    let deployment =
-        Deployment { schedule: &schedule, rig: &rig, run: 2, clear: false, interrupted: &|| false };
+    let deployment = Deployment {
+        schedule: &schedule,
+        rig: &rig,
+        run: 2,
+        open: &BTreeSet::new(),
+        clear: false,
+        interrupted: &|| false,
+    };
     let mut log = EventLog::new(io::sink());
     let refused = deploy(&mut session, &deployment, &mut log, &mut |_| {});
     assert!(matches!(refused, Err(DeployError::Safe { fault: Some(_) })), "{refused:?}");

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::io;
 use zygote_protocol::{
     Command, Event, Fault, HelloReply, Link, LinkCounters, Micros, Millis, Received, Refusal, Reply, Report,
-    Request, Response, SendError, Status, Telemetry, Urgent, decode_payload,
+    Request, Response, SendError, Snapshot, Status, Telemetry, Urgent, decode_payload,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
@@ -87,6 +87,7 @@ pub enum Notice {
 pub struct Session<T> {
     transport: T,
     link: Link,
+    number: u32,
     info: HelloReply,
     next_id: u16,
     responses: BTreeMap<u16, Result<Reply, Refusal>>,
@@ -103,7 +104,7 @@ impl<T: Transport> Session<T> {
         let mut link = Link::new(transport.now());
         let info = connect::shake_hands(&mut transport, &mut link, number, patience)?;
         let (responses, notices) = (BTreeMap::new(), VecDeque::new());
-        Ok(Self { transport, link, info, next_id: 0, responses, notices, last_fault: None })
+        Ok(Self { transport, link, number, info, next_id: 0, responses, notices, last_fault: None })
     }
 
     /// What the MCU said about itself.
@@ -177,8 +178,39 @@ impl<T: Transport> Session<T> {
     pub fn status(&mut self) -> Result<Status, RequestError> {
         match self.request(Command::Status)? {
             Reply::Status(status) => Ok(status),
-            Reply::Done | Reply::Progress { .. } => Err(RequestError::WrongReply { command: "status" }),
+            Reply::Done | Reply::Progress { .. } | Reply::LastRun(_) => {
+                Err(RequestError::WrongReply { command: "status" })
+            }
         }
+    }
+
+    /// Asks what the MCU was doing when it was reset.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn last_run(&mut self) -> Result<Option<Snapshot>, RequestError> {
+        match self.request(Command::LastRun)? {
+            Reply::LastRun(snapshot) => Ok(snapshot),
+            Reply::Done | Reply::Progress { .. } | Reply::Status(_) => {
+                Err(RequestError::WrongReply { command: "last run" })
+            }
+        }
+    }
+
+    /// Opens the next session on the same line, after this one was lost.
+    ///
+    /// # Errors
+    /// As [`Self::connect`].
+    pub fn reconnect(&mut self, patience: Millis) -> Result<(), ConnectError> {
+        // 0 is no session.
+        let number = self.number.checked_add(1).unwrap_or(1);
+        self.link = Link::new(self.transport.now());
+        self.info = connect::shake_hands(&mut self.transport, &mut self.link, number, patience)?;
+        self.number = number;
+        self.responses.clear();
+        self.notices.clear();
+        self.last_fault = None;
+        Ok(())
     }
 
     /// The next piece of news, waiting for it until `deadline` at most.
@@ -285,5 +317,6 @@ fn name_of(command: &Command) -> &'static str {
         Command::Start { .. } => "start",
         Command::Disarm => "disarm",
         Command::Clear => "clear",
+        Command::LastRun => "last run",
     }
 }
