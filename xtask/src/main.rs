@@ -3,6 +3,7 @@
 
 mod arrows;
 mod bench;
+mod campaign;
 mod demo;
 mod docs;
 mod firmware;
@@ -38,6 +39,11 @@ fn main() -> ExitCode {
             _ => {}
         }
     }
+    if let [verb, options @ ..] = arguments.as_slice()
+        && verb == "campaign"
+    {
+        return told(campaign::run(options));
+    }
     let [verb] = arguments.as_slice() else {
         eprintln!("expected one verb, got {}\n{}", arguments.len(), usage());
         return ExitCode::from(2);
@@ -68,7 +74,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

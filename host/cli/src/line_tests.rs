@@ -1,7 +1,6 @@
 //! Deployments over a line that damages, loses or ends: the real host and the real core with something in between.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::sim_rig::{self, SimTransport};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::io;
@@ -12,11 +11,12 @@ use zygote_controller::{
 };
 use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
 use zygote_protocol::{Micros, Millis, State};
+use zygote_rehearsal::{Stage, Trial};
 use zygote_stacking::{Model, Request};
 
 /// A simulated board behind a line that flips a bit in one byte of so many, and is dead from some time on.
 struct BadLine {
-    sim: SimTransport,
+    sim: Stage,
     one_in: u64,
     dead_from: Micros,
     random: u64,
@@ -43,16 +43,16 @@ impl BadLine {
 
 impl Transport for BadLine {
     fn now(&self) -> Micros {
-        self.sim.now()
+        self.sim.board().now()
     }
 
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
         let damaged = self.damage(bytes);
-        if self.is_dead() { Ok(()) } else { self.sim.send(&damaged) }
+        if self.is_dead() { Ok(()) } else { Transport::send(&mut &mut self.sim, &damaged) }
     }
 
     fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
-        let count = self.sim.receive(buffer, deadline)?;
+        let count = Transport::receive(&mut &mut self.sim, buffer, deadline)?;
         if self.is_dead() {
             return Ok(0);
         }
@@ -83,8 +83,8 @@ fn job() -> (Rig, Schedule) {
 }
 
 fn line(rig: &Rig, schedule: &Schedule, one_in: u64, dead_from: Micros) -> BadLine {
-    let Ok(board) = sim_rig::board(rig, Some(schedule), 1) else { panic!("the mixed rig can be simulated") };
-    BadLine { sim: SimTransport::new(board), one_in, dead_from, random: 0x1234_5678_9abc_def1 }
+    let trial = Trial::new(rig.clone(), schedule.clone()).unwrap();
+    BadLine { sim: trial.open().unwrap(), one_in, dead_from, random: 0x1234_5678_9abc_def1 }
 }
 
 /// Deploys; `interrupted` is asked with the number of times it was asked before.

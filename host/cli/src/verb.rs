@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, schedule,
+    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, rehearse, schedule,
     sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
@@ -40,6 +40,8 @@ pub(crate) enum Verb {
     Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
+    /// Run scenario files: deployments on the simulator with something going wrong, judged
+    Rehearse(rehearse::Arguments),
     /// Serve a simulated board on a pseudo-terminal
     Sim(sim::Arguments),
 }
@@ -57,6 +59,7 @@ impl Verb {
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
             Self::Fold(arguments) => fold_back::run(&arguments),
             Self::Assembly(arguments) => assembly::run(&arguments),

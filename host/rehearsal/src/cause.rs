@@ -2,7 +2,7 @@
 
 use std::fmt;
 use zygote_protocol::{Micros, Millis, ResetCause, State, StepState};
-use zygote_sim::Impairment;
+use zygote_sim::{Impairment, Stuck};
 use zygote_sim::plant::Fault;
 
 /// Something that goes wrong.
@@ -57,6 +57,8 @@ pub enum What {
     Break(Fault),
     /// The MCU is reset.
     Reset(ResetCause),
+    /// The MCU's program stops.
+    Hang(Stuck),
     /// The stop button is pressed, or released.
     StopButton(bool),
     /// A stop frame comes that belongs to no session.
@@ -81,6 +83,8 @@ impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Break(fault) => f.write_str(&broken(*fault)),
+            Self::Hang(Stuck::Tasks) => write!(f, "tasks stuck"),
+            Self::Hang(Stuck::Everything) => write!(f, "MCU stuck"),
             Self::Reset(cause) => write!(f, "MCU reset ({cause:?})"),
             Self::StopButton(true) => write!(f, "stop button pressed"),
             Self::StopButton(false) => write!(f, "stop button released"),

@@ -1,10 +1,11 @@
 //! One rehearsal: the real controller deploys over the simulated line, things go wrong, and the truth is noted.
 
-use crate::board::{BoardError, channels};
+use crate::board::{BoardError, channels, plant};
 use crate::cause::{Cause, Way};
 use crate::script::Script;
 use crate::stage::Stage;
 use crate::witness::{Watch, Witness};
+use std::collections::BTreeSet;
 use std::io;
 use zygote_controller::{Deployment, EventLog, RunReport, Session, deploy};
 use zygote_deployment::{Rig, Schedule};
@@ -72,12 +73,23 @@ pub struct Rehearsed {
 }
 
 impl Trial {
+    /// A run in which nothing goes wrong, on the plant that the rig file describes.
+    ///
+    /// # Errors
+    /// A rig that can't be simulated.
+    pub fn new(rig: Rig, schedule: Schedule) -> Result<Self, BoardError> {
+        let plant = plant(&rig, Some(&schedule))?;
+        let (causes, line) = (Vec::new(), Vec::new());
+        let (most, afterwards) = (Millis(u32::MAX), Millis(0));
+        Ok(Self { rig, schedule, plant, causes, line, seed: 0, most, afterwards, log: false })
+    }
+
     /// Runs it.
     ///
     /// # Errors
     /// A rig that can't be simulated, or a cause that its plant can't have.
     pub fn run(&self) -> Result<Rehearsed, BoardError> {
-        let mut stage = self.stage()?;
+        let mut stage = self.open()?;
         let stop = stage.user_stops();
         let ending = match Session::connect(&mut stage, NUMBER, HELLO_PATIENCE) {
             Err(error) => Ending::Refused(error.to_string()),
@@ -86,6 +98,7 @@ impl Trial {
                     schedule: &self.schedule,
                     rig: &self.rig,
                     run: NUMBER,
+                    open: &BTreeSet::new(),
                     clear: false,
                     interrupted: &|| stop.get(),
                 };
@@ -95,6 +108,14 @@ impl Trial {
                 }
             }
         };
+        self.close(stage, ending)
+    }
+
+    /// What is seen when the host has ended so.
+    ///
+    /// # Errors
+    /// A cause that the plant can't have.
+    pub fn close(&self, mut stage: Stage, ending: Ending) -> Result<Rehearsed, BoardError> {
         let ending = if stage.host_is_killed() { Ending::Killed } else { ending };
         let (ended_at, overran) = (stage.board().now(), stage.is_over());
         watch(&mut stage, ended_at.plus(self.afterwards))?;
@@ -102,7 +123,11 @@ impl Trial {
         Ok(Rehearsed { ending, ended_at, overran, witness, script })
     }
 
-    fn stage(&self) -> Result<Stage, BoardError> {
+    /// The stage, for a host of one's own; [`Self::close`] ends it.
+    ///
+    /// # Errors
+    /// A rig that can't be simulated.
+    pub fn open(&self) -> Result<Stage, BoardError> {
         let board = Board::new(&self.plant, channels(&self.rig)?, NUMBER)?;
         let witness = Witness::new(&self.schedule, self.bounds(), &board, self.log);
         let mut stage = Stage::new(board, witness, Script::new(self.causes.clone()), self.seed)

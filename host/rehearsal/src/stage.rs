@@ -167,6 +167,7 @@ impl Stage {
         self.witness.say(now, || format!("*** {what}"));
         match what {
             What::Break(fault) => self.board.plant_mut().inject(*fault)?,
+            What::Hang(stuck) => self.board.hang(*stuck),
             What::Reset(cause) => self.board.reset(*cause),
             What::StopButton(pressed) => self.board.press_stop(*pressed),
             What::StopFrame => {

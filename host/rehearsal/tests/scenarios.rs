@@ -5,13 +5,9 @@ use zygote_rehearsal::Scenario;
 use zygote_rehearsal::scenario::table;
 
 /// Scenarios whose rule doesn't hold today, with the rule; taken off as soon as it does.
-const KNOWN_FAILURES: [(&str, &str); 3] = [
-    // A host whose commands don't get through but who hears the board waits for an answer for ever.
+const KNOWN_FAILURES: [(&str, &str); 1] = [
+    // A host whose commands don't get through, but who hears the board, waits for an answer for ever.
     ("s03-line-cut-to-board", "S12"),
-    // A frozen reading isn't recognised.
-    ("s05-thermistor-frozen", "S5"),
-    // The gain is looked at from the start of heating only.
-    ("s06-heater-breaks", "S6"),
 ];
 
 #[test]

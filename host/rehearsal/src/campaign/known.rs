@@ -4,7 +4,6 @@
 use crate::cause::{What, Way};
 use crate::judge::Breach;
 use crate::run::Rehearsed;
-use zygote_sim::plant::Fault;
 
 /// A gap that is known.
 struct Gap {
@@ -16,23 +15,6 @@ struct Gap {
 
 const GAPS: &[Gap] = &[
     Gap {
-        rule: "S4",
-        about: "S5: a frozen thermistor isn't recognised; its hinge heats until the longest on-time",
-        needs: &[|what, breach| {
-            matches!(what, What::Break(Fault::ThermistorFrozen(channel)) if Some(*channel) == breach.heater)
-        }],
-    },
-    Gap {
-        rule: "end",
-        about: "S5: a frozen thermistor isn't recognised; its hinge cools for ever",
-        needs: &[|what, _| matches!(what, What::Break(Fault::ThermistorFrozen(_)))],
-    },
-    Gap {
-        rule: "end",
-        about: "S6: cooling has no longest time; a hinge that a stuck MOSFET keeps just warm cools for ever",
-        needs: &[|what, _| matches!(what, What::Break(Fault::MosfetStuckOn(_)))],
-    },
-    Gap {
         rule: "end",
         about: "a host whose commands don't get through, but who hears the board, waits for ever",
         needs: &[|what, _| matches!(what, What::Cut(Way::ToBoard, None))],
@@ -40,10 +22,7 @@ const GAPS: &[Gap] = &[
     Gap {
         rule: "S11",
         about: "S11: a session that is replayed from its hello on is executed again, after a reset or another session",
-        needs: &[
-            |what, _| matches!(what, What::Replay),
-            |what, _| matches!(what, What::Reset(_) | What::SecondHost),
-        ],
+        needs: &[|what, _| matches!(what, What::Replay)],
     },
 ];
 

@@ -4,7 +4,7 @@ use crate::cause::{Cause, Way, What, When};
 use zygote_deployment::{Kind, Schedule};
 use zygote_protocol::{Micros, Millis, ResetCause, StepState};
 use zygote_sim::plant::{Config, Fault, Hinge};
-use zygote_sim::{Chance, Impairment};
+use zygote_sim::{Chance, Impairment, Stuck};
 
 /// The clock's mishaps happen within this, ms: most runs are under way then.
 const WITHIN_MS: usize = 25_000;
@@ -61,7 +61,8 @@ fn on_the_rig(chance: &mut Chance, kind: Kind, channel: usize, plant: &Config) -
         Kind::Servo => Hinge::Servo(channel),
         Kind::Spring => Hinge::Spring(channel),
     };
-    let of_all = |chance: &mut Chance| match chance.below(5) {
+    let of_all = |chance: &mut Chance| match chance.below(6) {
+        4 => What::Hang(if chance.happens(0.5) { Stuck::Tasks } else { Stuck::Everything }),
         0 => What::Break(Fault::SupplyCut),
         1 => What::Break(Fault::SupplySag {
             open_circuit_v: chance.between(2.0, plant.supply.open_circuit_v),

@@ -13,6 +13,8 @@ use zygote_sim::plant::Fault;
 const STOP: Millis = Millis(10);
 /// S5: three bad samples, and 100 ms from the one after.
 const SENSOR: Millis = Millis(100 + 3 * TICK.0);
+/// S9: a stuck program ends in a reset within this.
+const WATCHDOG: Millis = Millis(500);
 /// S7: three samples, one tick until they are taken and one in which the third acts.
 const OVER_CURRENT: Millis = Millis(5 * TICK.0);
 
@@ -54,6 +56,7 @@ fn deadline(witness: &Witness, at: Micros, what: &What) -> Option<(&'static str,
             Some(("S5", at.max(armed.from).plus(SENSOR)))
         }
         What::Reset(_) => Some(("S1", at)),
+        What::Hang(_) => Some(("S9", at.plus(WATCHDOG))),
         What::StopButton(true) => Some(("S8", at.plus(STOP))),
         What::StopFrame => Some(("S8", at.plus(STOP))),
         What::SecondHost => Some(("S2", at.plus(STOP))),

@@ -132,6 +132,8 @@ pub(super) enum WhatTable {
     SupplyCut,
     SupplySag { voltage: Volts, resistance: Ohms },
     SupplyRestored,
+    TasksStuck,
+    McuStuck,
     Reset { cause: ResetName },
     StopPressed,
     StopReleased,

@@ -7,7 +7,7 @@ use super::file::{
 use crate::cause::{Cause, Way, What, When};
 use zygote_deployment::{Kind, Schedule, Seconds, Step};
 use zygote_protocol::{Micros, Millis, ResetCause, State, StepState};
-use zygote_sim::Impairment;
+use zygote_sim::{Impairment, Stuck};
 use zygote_sim::plant::{Fault, Hinge};
 
 /// A table of the file with its place.
@@ -131,6 +131,8 @@ impl Hinges<'_> {
                 What::Break(Fault::SupplySag { open_circuit_v: voltage.0, source_ohm: resistance.0 })
             }
             WhatTable::SupplyRestored => What::Break(Fault::SupplyRestored),
+            WhatTable::TasksStuck => What::Hang(Stuck::Tasks),
+            WhatTable::McuStuck => What::Hang(Stuck::Everything),
             WhatTable::Reset { cause } => What::Reset(reset(*cause)),
             WhatTable::StopPressed => What::StopButton(true),
             WhatTable::StopReleased => What::StopButton(false),
