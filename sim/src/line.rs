@@ -28,8 +28,7 @@ pub struct Impairment {
 
 impl Impairment {
     /// A good line.
-    pub const NONE: Self =
-        Self { delay: Millis(0), loss: 0.0, flip: 0.0, duplicate: 0.0, reorder: 0.0 };
+    pub const NONE: Self = Self { delay: Millis(0), loss: 0.0, flip: 0.0, duplicate: 0.0, reorder: 0.0 };
 }
 
 /// One direction.
@@ -193,11 +192,11 @@ mod tests {
     #[test]
     fn bytes_are_lost_and_bits_turned_as_often_as_asked() {
         let mut wire = wire(Impairment { loss: 0.1, flip: 0.2, ..Impairment::NONE });
-        wire.send(Micros(0), &[0; 100_000]);
+        wire.send(Micros(0), &vec![0; 100_000]);
         let bytes = arrived(&mut wire, Micros(0));
         // Ten standard deviations of a binomial distribution.
         assert!(bytes.len().abs_diff(90_000) < 950, "{} arrived", bytes.len());
-        let flipped = bytes.iter().filter(|byte| byte.count_ones() == 1).count();
+        let flipped = bytes.iter().filter(|byte| byte.is_power_of_two()).count();
         assert!(flipped.abs_diff(18_000) < 1_250, "{flipped} turned");
         assert!(bytes.iter().all(|byte| byte.count_ones() <= 1));
     }

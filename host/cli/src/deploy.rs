@@ -107,7 +107,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let verdict = scenario.judge(&trial, &trial.close(stage, ending).or_failed()?);
     say(table(std::slice::from_ref(&verdict)));
-    if verdict.holds() { Ok(()) } else { Err(Failure::Failed(anyhow!("{}: the scenario failed", scenario.file))) }
+    if verdict.holds() {
+        Ok(())
+    } else {
+        Err(Failure::Failed(anyhow!("{}: the scenario failed", scenario.file)))
+    }
 }
 
 /// The hinges that need not move again.

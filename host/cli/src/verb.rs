@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, rehearse, schedule,
-    sequence, sim, table, tolerance, torque,
+    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, rehearse,
+    schedule, sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 

@@ -2,8 +2,8 @@
 
 use std::fmt;
 use zygote_protocol::{Micros, Millis, ResetCause, State, StepState};
-use zygote_sim::{Impairment, Stuck};
 use zygote_sim::plant::Fault;
+use zygote_sim::{Impairment, Stuck};
 
 /// Something that goes wrong.
 #[derive(Debug, Clone, PartialEq)]

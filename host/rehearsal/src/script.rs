@@ -23,6 +23,12 @@ impl Script {
         Self { causes: causes.into_iter().map(|cause| (cause, Stage::Waiting)).collect() }
     }
 
+    /// Causes that have all happened, for tests of what is made of them.
+    #[cfg(test)]
+    pub(crate) fn of_the_past(causes: Vec<(Cause, Micros)>) -> Self {
+        Self { causes: causes.into_iter().map(|(cause, at)| (cause, Stage::Happened(at))).collect() }
+    }
+
     /// What has happened, with when.
     pub fn happened(&self) -> impl Iterator<Item = (Micros, &What)> {
         self.causes.iter().filter_map(|(cause, stage)| match stage {

@@ -7,7 +7,7 @@
 //!                                Witness           what was truly the case
 //! ```
 
-use crate::cause::{What, Way};
+use crate::cause::{Way, What};
 use crate::script::Script;
 use crate::witness::Witness;
 use std::cell::Cell;

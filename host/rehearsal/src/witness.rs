@@ -215,7 +215,9 @@ impl Witness {
     fn look_at_order(&mut self, board: &Board) {
         let outputs = board.core().outputs();
         for at in 0..self.hinges.len() {
-            let Some(HingeTruth { kind, channel, driven_at: None, .. }) = self.hinges.get(at) else { continue };
+            let Some(HingeTruth { kind, channel, driven_at: None, .. }) = self.hinges.get(at) else {
+                continue;
+            };
             let driven = match kind {
                 Kind::Sma => outputs.heaters.get(*channel).is_some_and(|duty| duty.per_mille() > 0),
                 Kind::Servo => outputs.servos.get(*channel).is_some_and(Option::is_some),
@@ -223,7 +225,8 @@ impl Witness {
             };
             if driven {
                 let closed = |before: &usize| self.hinges.get(*before).is_some_and(|hinge| !hinge.is_open());
-                let before = self.hinges.get(at).map(|hinge| hinge.after.iter().copied().filter(closed).collect());
+                let before =
+                    self.hinges.get(at).map(|hinge| hinge.after.iter().copied().filter(closed).collect());
                 if let (Some(hinge), Some(before)) = (self.hinges.get_mut(at), before) {
                     hinge.driven_at = Some(board.now());
                     hinge.driven_before = before;

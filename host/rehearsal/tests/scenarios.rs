@@ -19,6 +19,12 @@ fn every_scenario_holds_but_those_that_are_known_not_to() {
     println!("{}", table(&verdicts));
     for (scenario, verdict) in scenarios.iter().zip(&verdicts) {
         let known = KNOWN_FAILURES.iter().any(|(name, _)| *name == scenario.name());
-        assert_eq!(verdict.holds(), !known, "{}, known to fail: {known}\n{}", scenario.name(), table(&verdicts));
+        assert_eq!(
+            verdict.holds(),
+            !known,
+            "{}, known to fail: {known}\n{}",
+            scenario.name(),
+            table(&verdicts)
+        );
     }
 }

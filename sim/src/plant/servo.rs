@@ -114,7 +114,13 @@ pub struct ServoHinge {
 
 impl ServoHinge {
     pub(super) fn new(config: ServoConfig) -> Self {
-        Self { config, angle_deg: config.start_deg, activity: ServoActivity::Limp, jammed: false, stalled: false }
+        Self {
+            config,
+            angle_deg: config.start_deg,
+            activity: ServoActivity::Limp,
+            jammed: false,
+            stalled: false,
+        }
     }
 
     /// True angle.

@@ -180,7 +180,12 @@ fn a_drifting_thermistor_reads_off_by_its_rate_while_the_foil_is_what_it_was() {
 fn a_shorted_heater_draws_and_heats_as_its_lower_resistance_says() {
     let mut rig = rig_with(Fault::HeaterShorted { channel: 0, ohm: 12.5 }, 0.0);
     rig.run(1.0);
-    assert_near(rig.plant.supply_a(), 0.4 + 0.2 + 0.01, 1e-9, "twice its current, its neighbour and two idle servos");
+    assert_near(
+        rig.plant.supply_a(),
+        0.4 + 0.2 + 0.01,
+        1e-9,
+        "twice its current, its neighbour and two idle servos",
+    );
     assert_near(rig.plant.heaters_a(), 0.6, 1e-9, "of which the heaters");
     let (shorted, sound) = (&rig.plant.sma_hinges()[0], &rig.plant.sma_hinges()[1]);
     // Below As nothing transforms and the model is linear: twice the power is twice the rise.

@@ -156,7 +156,11 @@ fn milliamps(amps: f64) -> u64 {
 }
 
 fn whole(value: f64) -> u64 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, and above 0 by construction")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "small, and above 0 by construction"
+    )]
     let whole = value.round().max(0.0) as u64;
     whole
 }

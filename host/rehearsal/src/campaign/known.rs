@@ -1,7 +1,7 @@
 //! Rules that are known not to hold today, each with what it takes: such breaches are counted apart, so that a
 //! campaign fails for what is new. A line is taken off as soon as its rule holds.
 
-use crate::cause::{What, Way};
+use crate::cause::{Way, What};
 use crate::judge::Breach;
 use crate::run::Rehearsed;
 
@@ -28,9 +28,8 @@ const GAPS: &[Gap] = &[
 
 /// The gap that a breach belongs to.
 pub(super) fn gap(rehearsed: &Rehearsed, breach: &Breach) -> Option<&'static str> {
-    let happened = |need: &fn(&What, &Breach) -> bool| {
-        rehearsed.script.happened().any(|(_, what)| need(what, breach))
-    };
+    let happened =
+        |need: &fn(&What, &Breach) -> bool| rehearsed.script.happened().any(|(_, what)| need(what, breach));
     let fits = |gap: &&Gap| gap.rule == breach.rule && gap.needs.iter().all(happened);
     GAPS.iter().find(fits).map(|gap| gap.about)
 }

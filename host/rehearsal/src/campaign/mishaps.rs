@@ -31,7 +31,8 @@ fn cause(chance: &mut Chance, schedule: &Schedule, plant: &Config) -> Vec<Cause>
         (When::Step { step, state: StepState::Moving }, INTO_MOTION_MS)
     };
     let after = millis(chance.below(into));
-    let what = if chance.happens(0.6) { on_the_rig(chance, kind, channel, plant) } else { on_the_line(chance) };
+    let what =
+        if chance.happens(0.6) { on_the_rig(chance, kind, channel, plant) } else { on_the_line(chance) };
     let restored = match what {
         What::Break(Fault::SupplyCut | Fault::SupplySag { .. }) => Some(What::Break(Fault::SupplyRestored)),
         What::StopButton(true) => Some(What::StopButton(false)),

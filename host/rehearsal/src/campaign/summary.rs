@@ -74,8 +74,10 @@ impl Summary {
             *self.faults.entry(fault.code.number()).or_default() += 1;
         }
         self.note_heat(trial, rehearsed);
-        let (gaps, new): (Vec<_>, Vec<_>) =
-            breaches.into_iter().map(|breach| (known::gap(rehearsed, &breach), breach)).partition(|(gap, _)| gap.is_some());
+        let (gaps, new): (Vec<_>, Vec<_>) = breaches
+            .into_iter()
+            .map(|breach| (known::gap(rehearsed, &breach), breach))
+            .partition(|(gap, _)| gap.is_some());
         let mut gaps: Vec<_> = gaps.into_iter().filter_map(|(gap, _)| gap).collect();
         gaps.dedup();
         for gap in gaps {
@@ -124,16 +126,34 @@ impl Summary {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} runs, {} hinges, {:.1} h of virtual time", self.runs, self.hinges, self.virtual_s / 3600.0)?;
+        writeln!(
+            f,
+            "{} runs, {} hinges, {:.1} h of virtual time",
+            self.runs,
+            self.hinges,
+            self.virtual_s / 3600.0
+        )?;
         writeln!(f, "{} lines bad from the start", self.bad_lines)?;
         let list = |f: &mut fmt::Formatter<'_>, title: &str, rows: Vec<(String, u64)>| {
             writeln!(f, "{title}:")?;
             rows.iter().try_for_each(|(name, count)| writeln!(f, "  {count:>6}  {name}"))
         };
         list(f, "what went wrong", self.causes.iter().map(|(name, count)| (name.clone(), *count)).collect())?;
-        list(f, "how the host ended", self.endings.iter().map(|(name, count)| ((*name).to_owned(), *count)).collect())?;
-        list(f, "faults of the MCU", self.faults.iter().map(|(code, count)| (format!("F{code:02}"), *count)).collect())?;
-        list(f, "rules known not to hold", self.known.iter().map(|(gap, count)| ((*gap).to_owned(), *count)).collect())?;
+        list(
+            f,
+            "how the host ended",
+            self.endings.iter().map(|(name, count)| ((*name).to_owned(), *count)).collect(),
+        )?;
+        list(
+            f,
+            "faults of the MCU",
+            self.faults.iter().map(|(code, count)| (format!("F{code:02}"), *count)).collect(),
+        )?;
+        list(
+            f,
+            "rules known not to hold",
+            self.known.iter().map(|(gap, count)| ((*gap).to_owned(), *count)).collect(),
+        )?;
         if let Some(over_k) = self.most_over_limit_k {
             writeln!(f, "undisturbed foils stayed at least {:.1} K below their step's limit", -over_k)?;
         }

@@ -62,7 +62,13 @@ fn supply_limit_ma(chance: &mut Chance, hinges: &[Specimen]) -> u64 {
     (most + chance.below(spare + 1) as u64).max(1_000)
 }
 
-fn rig_text(chance: &mut Chance, hinges: &[Specimen], supply: &SupplyConfig, ambient_c: f64, limit_ma: u64) -> String {
+fn rig_text(
+    chance: &mut Chance,
+    hinges: &[Specimen],
+    supply: &SupplyConfig,
+    ambient_c: f64,
+    limit_ma: u64,
+) -> String {
     let count = |kind| hinges.iter().filter(|hinge| hinge.kind() == kind).count();
     let timeout_ms = 500 + 100 * chance.below(16);
     let mut text = format!(

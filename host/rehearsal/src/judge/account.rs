@@ -23,7 +23,8 @@ fn order(rehearsed: &Rehearsed, excuses: &Excuses) -> Vec<Breach> {
     let mut breaches = Vec::new();
     for hinge in hinges {
         for before in hinge.driven_before.iter().filter(|before| !excuses.may_be_closed(**before)) {
-            let (at, first) = (hinge.driven_at.unwrap_or_default(), hinges.get(*before).map(|first| first.hinge));
+            let (at, first) =
+                (hinge.driven_at.unwrap_or_default(), hinges.get(*before).map(|first| first.hinge));
             let what = format!("hinge {} was driven while hinge {first:?} before it was closed", hinge.hinge);
             breaches.push(Breach::new("S10", at, what));
         }
@@ -41,7 +42,11 @@ fn once(rehearsed: &Rehearsed) -> Vec<Breach> {
         }
     }
     for hinge in witness.hinges.iter().filter(|hinge| hinge.starts > 1) {
-        breaches.push(Breach::new("S11", at, format!("hinge {} started {} times", hinge.hinge, hinge.starts)));
+        breaches.push(Breach::new(
+            "S11",
+            at,
+            format!("hinge {} started {} times", hinge.hinge, hinge.starts),
+        ));
     }
     breaches
 }

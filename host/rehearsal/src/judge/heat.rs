@@ -16,8 +16,7 @@ pub(super) fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
         let limit_c = f64::from(motion.max_temperature.0) / 100.0;
         let Some(bound) = bound(trial, rehearsed, step, limit_c, at) else { continue };
         let most_c = limit_c + bound.margin_k;
-        let breach =
-            |what: String| Breach { heater: Some(hinge.channel), ..Breach::new("S4", at, what) };
+        let breach = |what: String| Breach { heater: Some(hinge.channel), ..Breach::new("S4", at, what) };
         let truth = format!("hinge {} truly at {hottest_c:.1} °C", hinge.hinge);
         if hottest_c > most_c {
             let margin_k = bound.margin_k;
@@ -43,6 +42,7 @@ fn bound(trial: &Trial, rehearsed: &Rehearsed, step: &Step, limit_c: f64, at: Mi
     let supply = &trial.plant.supply;
     let (mut ohm, mut volts, mut colder_k, mut over_ceiling_k) =
         (sma.heater_ohm, supply.open_circuit_v, 0.0_f64, 0.0_f64);
+    let (mut runs_away, mut blind) = (false, false);
     for (when, what) in rehearsed.script.happened() {
         let What::Break(fault) = *what else { continue };
         match fault {
@@ -56,9 +56,13 @@ fn bound(trial: &Trial, rehearsed: &Rehearsed, step: &Step, limit_c: f64, at: Mi
                 over_ceiling_k = margin_k(sma, volts, ohm, limit_c);
             }
             Fault::SupplySag { open_circuit_v, .. } => volts = volts.max(open_circuit_v),
+            Fault::MosfetStuckOn(of) => runs_away |= of == channel,
+            Fault::ThermistorFrozen(of) | Fault::ThermistorLoose(of) => blind |= of == channel,
             _ => {}
         }
     }
-    let margin_k = margin_k(sma, volts, ohm, limit_c) + colder_k;
+    // Two faults in one hinge, of which one hides the other: what remains is that it doesn't cool (S6), and the ceiling.
+    let hidden_k = if runs_away && blind { f64::INFINITY } else { 0.0 };
+    let margin_k = margin_k(sma, volts, ohm, limit_c) + colder_k + hidden_k;
     Some(Bound { margin_k, over_ceiling_k: over_ceiling_k + colder_k })
 }

@@ -65,7 +65,8 @@ mod tests {
             for (film_j_per_k, coupling_w_per_k, lag_s) in
                 [(0.012, 0.075, 0.3), (0.03, 0.04, 0.1), (0.006, 0.15, 0.8)]
             {
-                let mut sma = SmaConfig { heater_ohm: ohm, film_j_per_k, coupling_w_per_k, ..SmaConfig::opening(90.0) };
+                let mut sma =
+                    SmaConfig { heater_ohm: ohm, film_j_per_k, coupling_w_per_k, ..SmaConfig::opening(90.0) };
                 sma.thermistor.lag_s = lag_s;
                 for limit_c in [60.0, 72.0, 110.0] {
                     let (got, most) = (overshoot_k(sma, limit_c), margin_k(&sma, 5.0, ohm, limit_c));

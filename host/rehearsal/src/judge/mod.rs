@@ -13,7 +13,8 @@
 //! | S12 | what the host reports of each hinge is so |
 //! | end | the host ends, whatever happens |
 //!
-//! What no sensor of the board can see excuses S10 and S12 for the hinge concerned: see [`excuse`].
+//! While the MCU's program is stuck, S9's 500 ms hold in place of the shorter times. A MOSFET that sticks while the thermistor of the same
+//! hinge is frozen or loose is judged by the ceiling alone. What no sensor of the board can see excuses S10 and S12 for the hinge concerned: see [`excuse`].
 
 mod account;
 mod excuse;
@@ -66,3 +67,6 @@ pub fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
 pub(crate) fn seconds(time: Micros) -> f64 {
     time.0 as f64 / 1e6
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,26 +22,41 @@ pub(super) fn judge(rehearsed: &Rehearsed) -> Vec<Breach> {
     let witness = &rehearsed.witness;
     let mut breaches = Vec::new();
     for span in &witness.unarmed {
-        breaches.push(Breach::new("S2", span.from, format!("current for {} us while nothing was armed", length(*span))));
+        let what = format!("current for {} us while nothing was armed", length(*span));
+        breaches.push(Breach::new("S2", span.from, what));
     }
-    for span in &witness.unheard {
+    for span in witness.unheard.iter().filter(|span| span.to > stuck_until(rehearsed, span.from)) {
         let last = witness.heard.last_frame.unwrap_or_default();
-        let what = format!("current {} us later, last frame of the host at {:.3} s", length(*span), seconds(last));
+        let what =
+            format!("current for {} us, last frame of the host at {:.3} s", length(*span), seconds(last));
         breaches.push(Breach::new("S3", span.from, what));
     }
-    for span in witness.over_current.iter().filter(|span| length(**span) > OVER_CURRENT.to_micros()) {
-        breaches.push(Breach::new("S7", span.from, format!("over the limit and its margin for {} us", length(*span))));
+    let long = |span: &&Span| length(**span) > OVER_CURRENT.to_micros();
+    for span in witness.over_current.iter().filter(long) {
+        if span.to > stuck_until(rehearsed, span.from) {
+            let what = format!("over the limit and its margin for {} us", length(*span));
+            breaches.push(Breach::new("S7", span.from, what));
+        }
     }
     for (at, what) in rehearsed.script.happened() {
-        if let Some((rule, deadline)) = deadline(witness, at, what) {
-            let still = witness.energised.iter().find(|span| span.to > deadline && span.from < deadline);
-            if let Some(span) = still {
-                let over = format!("{what}: current until {:.3} s, off was due at {:.3} s", seconds(span.to), seconds(deadline));
-                breaches.push(Breach::new(rule, at, over));
-            }
+        let Some((rule, deadline)) = deadline(witness, at, what) else { continue };
+        let deadline = deadline.max(stuck_until(rehearsed, at));
+        if let Some(span) = witness.energised.iter().find(|span| span.to > deadline && span.from < deadline) {
+            let (until, due) = (seconds(span.to), seconds(deadline));
+            let over = format!("{what}: current until {until:.3} s, off was due at {due:.3} s");
+            breaches.push(Breach::new(rule, at, over));
         }
     }
     breaches
+}
+
+/// A program that is stuck decides nothing: until its reset, S9's time is the one that holds for all others. `at` where
+/// nothing is stuck then.
+fn stuck_until(rehearsed: &Rehearsed, at: Micros) -> Micros {
+    let happened = rehearsed.script.happened();
+    let stuck = happened.filter(|(since, what)| matches!(what, What::Hang(_)) && *since <= at);
+    let until = stuck.map(|(since, _)| since.plus(WATCHDOG)).filter(|until| *until > at).max();
+    until.unwrap_or(at)
 }
 
 /// The rule after which everything must be off, and by when; for causes that ask for it whatever else is the case. A lost

@@ -51,7 +51,9 @@ pub enum ScenarioError {
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A scenario without a job of its own was asked to run by itself.
-    #[error("{file}: has no [job], so it can only be used with a plan: `zygote deploy PLAN --sim --scenario {file}`")]
+    #[error(
+        "{file}: has no [job], so it can only be used with a plan: `zygote deploy PLAN --sim --scenario {file}`"
+    )]
     NoJob {
         /// Its name.
         file: String,

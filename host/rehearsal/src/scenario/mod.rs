@@ -100,7 +100,9 @@ impl Scenario {
 
     /// The file's name without folder and ending.
     pub fn name(&self) -> String {
-        Path::new(&self.file).file_stem().map_or_else(|| self.file.clone(), |stem| stem.to_string_lossy().into_owned())
+        Path::new(&self.file)
+            .file_stem()
+            .map_or_else(|| self.file.clone(), |stem| stem.to_string_lossy().into_owned())
     }
 
     /// What it is about, planned and scheduled, with its causes.
@@ -108,13 +110,16 @@ impl Scenario {
     /// # Errors
     /// [`ScenarioError`].
     pub fn trial(&self) -> Result<Trial, ScenarioError> {
-        let job = self.content.job.as_ref().ok_or_else(|| ScenarioError::NoJob { file: self.file.clone() })?;
+        let job =
+            self.content.job.as_ref().ok_or_else(|| ScenarioError::NoJob { file: self.file.clone() })?;
         let rig = match &job.rig {
             RigSource::File(path) => {
                 let path = self.beside(path);
                 self.job("the rig", Rig::read(&path.display().to_string(), &read(&path)?))?
             }
-            RigSource::Text(text) => self.job("the rig", Rig::read(&format!("{} (rig.text)", self.file), text))?,
+            RigSource::Text(text) => {
+                self.job("the rig", Rig::read(&format!("{} (rig.text)", self.file), text))?
+            }
         };
         let model = self.job("the model", Model::read(&self.beside(&job.model), None))?;
         let request = Request { piles: job.piles, ..Request::default() };
@@ -157,7 +162,8 @@ impl Scenario {
     /// [`ScenarioError`].
     pub fn rehearse(&self) -> Result<Verdict, ScenarioError> {
         let trial = self.trial()?;
-        let rehearsed = trial.run().map_err(|source| ScenarioError::Board { file: self.file.clone(), source })?;
+        let rehearsed =
+            trial.run().map_err(|source| ScenarioError::Board { file: self.file.clone(), source })?;
         Ok(self.judge(&trial, &rehearsed))
     }
 
@@ -179,7 +185,11 @@ impl Scenario {
         what: &'static str,
         result: Result<T, E>,
     ) -> Result<T, ScenarioError> {
-        result.map_err(|source| ScenarioError::Job { file: self.file.clone(), what, source: Box::new(source) })
+        result.map_err(|source| ScenarioError::Job {
+            file: self.file.clone(),
+            what,
+            source: Box::new(source),
+        })
     }
 }
 

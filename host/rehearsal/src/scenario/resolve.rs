@@ -7,8 +7,8 @@ use super::file::{
 use crate::cause::{Cause, Way, What, When};
 use zygote_deployment::{Kind, Schedule, Seconds, Step};
 use zygote_protocol::{Micros, Millis, ResetCause, State, StepState};
-use zygote_sim::{Impairment, Stuck};
 use zygote_sim::plant::{Fault, Hinge};
+use zygote_sim::{Impairment, Stuck};
 
 /// A table of the file with its place.
 #[derive(Debug, Clone, Copy)]
@@ -63,7 +63,9 @@ pub(super) fn millis(at: At<'_>, what: &'static str, time: Seconds) -> Result<Mi
 
 fn impairment(at: At<'_>, table: &ImpairmentTable) -> Result<Impairment, ScenarioError> {
     let ImpairmentTable { delay, loss, flip, duplicate, reorder } = *table;
-    for (what, probability) in [("loss", loss), ("flip", flip), ("duplicate", duplicate), ("reorder", reorder)] {
+    for (what, probability) in
+        [("loss", loss), ("flip", flip), ("duplicate", duplicate), ("reorder", reorder)]
+    {
         if !(0.0..=1.0).contains(&probability) {
             return Err(at.refuse(what, "a probability, 0 to 1", probability.to_string()));
         }
@@ -88,7 +90,11 @@ impl Hinges<'_> {
             (None, None, Some(step), None, Some(state), None) => {
                 self.schedule.steps.get(*step).ok_or_else(|| {
                     let last = self.schedule.steps.len().saturating_sub(1);
-                    self.at.refuse("when.step", format!("a step of the schedule, 0 to {last}"), step.to_string())
+                    self.at.refuse(
+                        "when.step",
+                        format!("a step of the schedule, 0 to {last}"),
+                        step.to_string(),
+                    )
                 })?;
                 Ok(When::Step { step: *step, state: step_state(*state) })
             }

@@ -1,9 +1,9 @@
 //! What a scenario expects against what was truly the case, as a table for people.
 
+use super::Scenario;
 use super::error::ScenarioError;
 use super::file::{All, ExpectTable, Open, OutcomeName, Since};
 use super::resolve::At;
-use super::Scenario;
 use crate::judge::{judge as judge_rules, seconds};
 use crate::run::{Ending, Rehearsed, Trial};
 use crate::witness::{Span, Witness};
@@ -68,7 +68,12 @@ pub(super) fn check(at: At<'_>, expect: &ExpectTable) -> Result<(), ScenarioErro
     }
 }
 
-pub(super) fn judge(scenario: &Scenario, expect: &ExpectTable, trial: &Trial, rehearsed: &Rehearsed) -> Verdict {
+pub(super) fn judge(
+    scenario: &Scenario,
+    expect: &ExpectTable,
+    trial: &Trial,
+    rehearsed: &Rehearsed,
+) -> Verdict {
     let mut rows = times(expect, trial, rehearsed);
     rows.push(outcome(expect, rehearsed));
     rows.extend(facts(expect, rehearsed));
@@ -158,7 +163,8 @@ fn outcome(expect: &ExpectTable, rehearsed: &Rehearsed) -> Row {
     Row {
         what: "host".to_owned(),
         required: format!("{:?} {says}", expect.outcome).to_lowercase().trim_end().to_owned(),
-        measured: if said.is_empty() { format!("{found:?}") } else { format!("{found:?}: {said}") }.to_lowercase(),
+        measured: if said.is_empty() { format!("{found:?}") } else { format!("{found:?}: {said}") }
+            .to_lowercase(),
         holds: found == expect.outcome && said.contains(says),
     }
 }
@@ -169,9 +175,15 @@ fn facts(expect: &ExpectTable, rehearsed: &Rehearsed) -> Vec<Row> {
     let mut rows = Vec::new();
     if let Some(required) = expect.fault.as_deref().and_then(fault) {
         let found = witness.faults.first().map(|fault| fault.code);
-        let name = |code: Option<FaultCode>| code.map_or("none".to_owned(), |code| format!("F{:02}", code.number()));
+        let name =
+            |code: Option<FaultCode>| code.map_or("none".to_owned(), |code| format!("F{:02}", code.number()));
         let (required_name, measured) = (name(required), name(found));
-        rows.push(Row { what: "fault".to_owned(), required: required_name, measured, holds: found == required });
+        rows.push(Row {
+            what: "fault".to_owned(),
+            required: required_name,
+            measured,
+            holds: found == required,
+        });
     }
     if let Some(most) = expect.never_above {
         let hottest = witness.hinges.iter().filter_map(|hinge| hinge.hottest).map(|(celsius, _)| celsius);
