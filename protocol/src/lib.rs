@@ -27,7 +27,7 @@ pub mod schema;
 mod step;
 mod units;
 
-pub use codes::{FaultCode, RefusalCode};
+pub use codes::{Explanation, FaultCode, RefusalCode};
 pub use command::{
     Command, PROGRESS_PER_REPLY, Refusal, Reply, Request, Response, RigId, STEPS_PER_COMMAND, State, Status,
     StepState, peek_request_id,

@@ -4,6 +4,7 @@ mod alternatives;
 mod assembly;
 mod check;
 mod deploy;
+mod explain;
 mod export;
 mod failure;
 mod fold_back;

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, schedule,
-    sequence, sim, table, tolerance, torque,
+    alternatives, assembly, check, deploy, explain, export, fold_back, net, picture, plan, reconfigure,
+    schedule, sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -40,6 +40,8 @@ pub(crate) enum Verb {
     Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
+    /// Tell what a refusal or fault code means, and what to do
+    Explain(explain::Arguments),
     /// Serve a simulated board on a pseudo-terminal
     Sim(sim::Arguments),
 }
@@ -56,6 +58,7 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Explain(arguments) => explain::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
             Self::Fold(arguments) => fold_back::run(&arguments),
