@@ -91,9 +91,9 @@ codes! {
             "at: the second step; hinge; hinge", AS_BEFORE, "make the schedule anew";
         OrderViolated = 11, "a step waits for itself or for a later one",
             "at: step; its index less 1; the late one", AS_BEFORE, "make the schedule anew";
-        StepOverTemperature = 12, "a step's temperatures aren't below the limit, or are out of order: cool < target < max_temperature <= limit, min_gain > 0",
+        StepOverTemperature = 12, "a step's temperatures aren't below the limit, or are out of order: cool < target < highest <= limit, least gain > 0",
             "at: step; bound; value, in 0.01 °C", AS_BEFORE, "mend the rig file";
-        StepOverOnTime = 13, "a step's on-time (or release pulse) is above the limit, its hold not below it, its gain window above it, or its rest below min_rest",
+        StepOverOnTime = 13, "a step's on-time (or release pulse) is above the limit, its hold not below it, its gain window above it, or its rest below the least",
             "at: step; bound; value, in ms", AS_BEFORE, "mend the rig file";
         StepOverCurrent = 14, "a step alone draws more than the supply gives",
             "at: step; limit; current, in mA", AS_BEFORE, "mend the rig file, or use a stronger supply";

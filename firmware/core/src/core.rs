@@ -139,7 +139,8 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         let Some(hello) = hello else { return };
         let speaks_ours =
             hello.min <= VERSION && hello.current >= VERSION_MIN && hello.schema == schema::hash();
-        if speaks_ours && session != NO_SESSION && self.link.session() != Some(session) {
+        let is_new = self.link.session() != Some(session) && !self.link.was_replaced(session);
+        if speaks_ours && session != NO_SESSION && is_new {
             if self.mode.is_energised() {
                 self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
             }

@@ -3,9 +3,10 @@
 use super::round_trip::RoundTrip;
 use super::{Payload, SendError, WINDOW};
 use crate::Micros;
+use core::hash::{Hash, Hasher};
 use heapless::Deque;
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Hash)]
 struct Packet {
     payload: Payload,
     /// When it went out last.
@@ -14,9 +15,11 @@ struct Packet {
     repeated: bool,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Outbox {
     window: Deque<Packet, WINDOW>,
+    /// How many packets the other end takes at once, 1 to [`WINDOW`].
+    most: usize,
     /// Number of the oldest packet.
     oldest: u8,
     /// How many packets, from the oldest on, are out; the rest waits its turn.
@@ -28,7 +31,7 @@ pub(super) struct Outbox {
 
 impl Outbox {
     pub(super) const fn new() -> Self {
-        Self { window: Deque::new(), oldest: 0, out: 0, gone_back: false, repeats: 0 }
+        Self { window: Deque::new(), most: WINDOW, oldest: 0, out: 0, gone_back: false, repeats: 0 }
     }
 
     pub(super) fn clear(&mut self) {
@@ -37,7 +40,12 @@ impl Outbox {
     }
 
     pub(super) fn room(&self) -> usize {
-        WINDOW - self.window.len()
+        self.most.saturating_sub(self.window.len())
+    }
+
+    /// From now on at most so many packets are under way; one at least, and never more than [`WINDOW`].
+    pub(super) fn narrow(&mut self, most: usize) {
+        self.most = most.clamp(1, WINDOW);
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -51,6 +59,9 @@ impl Outbox {
 
     /// Takes a packet.
     pub(super) fn push(&mut self, payload: Payload) -> Result<(), SendError> {
+        if self.room() == 0 {
+            return Err(SendError::Full);
+        }
         let packet = Packet { payload, sent: None, repeated: false };
         self.window.push_back(packet).map_err(|_| SendError::Full)
     }
@@ -111,5 +122,13 @@ impl Outbox {
         }
         packet.sent = Some(now);
         Some((self.oldest.wrapping_add(offset), &packet.payload))
+    }
+}
+
+/// What an outbox will do next doesn't depend on how often it repeated something.
+impl Hash for Outbox {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.window.iter().for_each(|packet| packet.hash(state));
+        (self.window.len(), self.most, self.oldest, self.out, self.gone_back).hash(state);
     }
 }

@@ -7,7 +7,7 @@ const INITIAL_US: u64 = 300_000;
 const SHORTEST_US: u64 = 30_000;
 const LONGEST_US: u64 = 1_000_000;
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Hash)]
 pub(super) struct RoundTrip {
     /// Smoothed time and its mean deviation.
     smoothed: Option<(u64, u64)>,
