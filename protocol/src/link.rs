@@ -77,6 +77,8 @@ pub struct LinkCounters {
     pub discarded: u32,
     /// Data frames sent again.
     pub repeated: u32,
+    /// Bytes of payload of the messages that the other end has acknowledged.
+    pub delivered: u32,
 }
 
 /// What the receiving half owes to the other end.
@@ -136,7 +138,7 @@ impl Link {
             session: None,
             replaced: [NO_SESSION; REPLACED],
             longest: MAX_PAYLOAD,
-            counters: LinkCounters { good: 0, bad: 0, discarded: 0, repeated: 0 },
+            counters: LinkCounters { good: 0, bad: 0, discarded: 0, repeated: 0, delivered: 0 },
             last_heard: now,
             last_said: now,
             round_trip: RoundTrip::new(),
@@ -198,7 +200,8 @@ impl Link {
 
     /// What the link has seen.
     pub fn counters(&self) -> LinkCounters {
-        LinkCounters { repeated: self.half.outbox.repeats(), ..self.half.counters }
+        let (repeated, delivered) = self.half.outbox.totals();
+        LinkCounters { repeated, delivered, ..self.half.counters }
     }
 
     /// How many more messages [`Self::send`] takes now.

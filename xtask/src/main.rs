@@ -6,6 +6,7 @@ mod bench;
 mod demo;
 mod docs;
 mod firmware;
+mod fuzz;
 mod hil;
 mod lint;
 mod parts;
@@ -30,6 +31,11 @@ const PARTS: &[Part] = &[
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [verb, options @ ..] = arguments.as_slice()
+        && verb == "fuzz"
+    {
+        return told(fuzz::run(options));
+    }
     if let [verb, name, options @ ..] = arguments.as_slice() {
         match (verb.as_str(), name.as_str()) {
             ("bench", "stacking") => return told(bench::stacking::run(options)),
@@ -67,7 +73,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

@@ -13,8 +13,11 @@ mod input;
 mod interrupt;
 #[cfg(test)]
 mod line_tests;
+mod link;
 mod net;
+mod noisy_line;
 mod output;
+mod paced_line;
 mod picture;
 mod plan;
 mod plan_choice;

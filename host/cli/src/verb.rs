@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, explain, export, fold_back, net, picture, plan, reconfigure,
+    alternatives, assembly, check, deploy, explain, export, fold_back, link, net, picture, plan, reconfigure,
     schedule, sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
@@ -40,6 +40,8 @@ pub(crate) enum Verb {
     Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
+    /// Measure the line to a board
+    Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
     Explain(explain::Arguments),
     /// Serve a simulated board on a pseudo-terminal
@@ -58,6 +60,7 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),

@@ -27,16 +27,25 @@ pub(super) struct Outbox {
     /// The oldest packet has been gone back to on request; further requests mean the same loss.
     gone_back: bool,
     repeats: u32,
+    delivered: u32,
 }
 
 impl Outbox {
     pub(super) const fn new() -> Self {
-        Self { window: Deque::new(), most: WINDOW, oldest: 0, out: 0, gone_back: false, repeats: 0 }
+        Self {
+            window: Deque::new(),
+            most: WINDOW,
+            oldest: 0,
+            out: 0,
+            gone_back: false,
+            repeats: 0,
+            delivered: 0,
+        }
     }
 
     pub(super) fn clear(&mut self) {
-        let repeats = self.repeats;
-        *self = Self { repeats, ..Self::new() };
+        let (repeats, delivered) = self.totals();
+        *self = Self { repeats, delivered, ..Self::new() };
     }
 
     pub(super) fn room(&self) -> usize {
@@ -52,9 +61,9 @@ impl Outbox {
         self.window.is_empty()
     }
 
-    /// Packets sent again so far.
-    pub(super) fn repeats(&self) -> u32 {
-        self.repeats
+    /// Packets sent again, and bytes of payload acknowledged, so far.
+    pub(super) fn totals(&self) -> (u32, u32) {
+        (self.repeats, self.delivered)
     }
 
     /// Takes a packet.
@@ -74,7 +83,10 @@ impl Outbox {
         }
         round_trip.progressed();
         for _ in 0..count {
-            if let Some(Packet { sent: Some(sent), repeated: false, .. }) = self.window.pop_front() {
+            let Some(packet) = self.window.pop_front() else { break };
+            let length = u32::try_from(packet.payload.len()).unwrap_or(u32::MAX);
+            self.delivered = self.delivered.wrapping_add(length);
+            if let (Some(sent), false) = (packet.sent, packet.repeated) {
                 round_trip.measured(now.since(sent));
             }
         }
@@ -125,7 +137,7 @@ impl Outbox {
     }
 }
 
-/// What an outbox will do next doesn't depend on how often it repeated something.
+/// What an outbox will do next doesn't depend on its totals.
 impl Hash for Outbox {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.window.iter().for_each(|packet| packet.hash(state));
