@@ -29,6 +29,8 @@ const KINDS: [FrameKind; 9] = [
 ];
 /// The control tick, as slow as it may be.
 const TICK: Millis = Millis(5);
+/// Time that passes for one input at most.
+const MOST: Micros = Micros(20_000_000);
 
 type TheCore = Core<2, 1, 1, 8>;
 
@@ -103,7 +105,8 @@ impl Rig {
     }
 
     fn pass(&mut self, time: Millis) {
-        let until = self.now.plus(time);
+        // Long enough for a whole run, and short enough to try many.
+        let until = self.now.plus(time).min(MOST);
         while self.now < until {
             self.now = self.now.plus(TICK).min(until);
             let inputs = Inputs {

@@ -342,7 +342,7 @@ impl Half {
         match header.kind {
             FrameKind::Data => self.take_data(header.seq, accept),
             FrameKind::Nack => {
-                self.outbox.go_back_on_request();
+                self.outbox.go_back_on_request(now);
                 Route::Nowhere
             }
             FrameKind::Urgent => self.take_urgent(header),

@@ -14,7 +14,7 @@ use zygote_protocol::{
 const SILENCE: Millis = Millis(2_000);
 /// The session asks for the MCU's time so often.
 const PROBE_EVERY: Millis = Millis(1_000);
-/// Room in the link that such a question leaves to others.
+/// Room in the link that commands leave free.
 const ROOM_TO_SPARE: usize = 2;
 
 /// Why a session ended.
@@ -148,12 +148,15 @@ impl<T: Transport> Session<T> {
         let id = self.take_id();
         let request = Request { id, command };
         loop {
+            // The MCU's answers and events share a window like this one: commands that fill it would be turned away.
+            while self.link.room() <= ROOM_TO_SPARE {
+                let soon = self.transport.now().plus(SILENCE);
+                self.pump(soon)?;
+            }
             match self.link.send(&request) {
                 Ok(()) => break,
-                Err(SendError::Full) => {
-                    let soon = self.transport.now().plus(SILENCE);
-                    self.pump(soon)?;
-                }
+                Err(SendError::Full) => {}
+
                 Err(SendError::TooLong) => {
                     let (line, longest) = (self.transport.name(), self.info.buffers.payload);
                     return Err(SessionError::TooLong { line, command: name_of(&request.command), longest });

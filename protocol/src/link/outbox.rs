@@ -24,8 +24,11 @@ pub(super) struct Outbox {
     oldest: u8,
     /// How many packets, from the oldest on, are out; the rest waits its turn.
     out: usize,
-    /// The oldest packet has been gone back to on request; further requests mean the same loss.
-    gone_back: bool,
+    /// The oldest packet has been gone back to on request, and so many further requests mean the same loss: one for each
+    /// packet that was out behind it, which the other end can't take.
+    gone_back: Option<usize>,
+    /// When the other end last said something that tells of the packets out: it is no time yet to think them lost.
+    heard: Micros,
     repeats: u32,
     delivered: u32,
 }
@@ -37,7 +40,8 @@ impl Outbox {
             most: WINDOW,
             oldest: 0,
             out: 0,
-            gone_back: false,
+            gone_back: None,
+            heard: Micros(0),
             repeats: 0,
             delivered: 0,
         }
@@ -81,7 +85,7 @@ impl Outbox {
         if count == 0 || count > self.window.len() {
             return;
         }
-        round_trip.progressed();
+
         for _ in 0..count {
             let Some(packet) = self.window.pop_front() else { break };
             let length = u32::try_from(packet.payload.len()).unwrap_or(u32::MAX);
@@ -92,14 +96,20 @@ impl Outbox {
         }
         self.oldest = ack;
         self.out = self.out.saturating_sub(count);
-        self.gone_back = false;
+        self.gone_back = None;
+        self.heard = now;
     }
 
     /// The other end misses what follows its last acknowledgement.
-    pub(super) fn go_back_on_request(&mut self) {
-        if !self.gone_back {
-            self.gone_back = true;
-            self.out = 0;
+    pub(super) fn go_back_on_request(&mut self, now: Micros) {
+        self.heard = now;
+        match &mut self.gone_back {
+            Some(same) if *same > 0 => *same -= 1,
+            // The first request, or one more than the packets behind explain: the repetition is lost as well.
+            None | Some(_) => {
+                self.gone_back = Some(self.out.saturating_sub(1));
+                self.out = 0;
+            }
         }
     }
 
@@ -108,14 +118,15 @@ impl Outbox {
         if self.deadline(round_trip).is_some_and(|deadline| now >= deadline) {
             round_trip.timed_out();
             self.out = 0;
-            self.gone_back = false;
+            self.gone_back = None;
         }
     }
 
     /// When the oldest packet is to be sent again; `None` while none is out.
     fn deadline(&self, round_trip: &RoundTrip) -> Option<Micros> {
         let oldest = self.window.front().filter(|_| self.out > 0)?;
-        oldest.sent.map(|sent| round_trip.deadline(sent))
+        // From the last sign of life on (RFC 6298, 5.3): a full window takes longer than one packet.
+        oldest.sent.map(|sent| round_trip.deadline(sent.max(self.heard)))
     }
 
     /// When something is to be sent: at once, at a deadline, or not at all.
@@ -141,6 +152,6 @@ impl Outbox {
 impl Hash for Outbox {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.window.iter().for_each(|packet| packet.hash(state));
-        (self.window.len(), self.most, self.oldest, self.out, self.gone_back).hash(state);
+        (self.window.len(), self.most, self.oldest, self.out, self.gone_back, self.heard).hash(state);
     }
 }
