@@ -156,14 +156,17 @@ mod checks {
     }
 
     #[test]
-    fn a_clean_line_carries_uploads_at_nine_tenths_of_its_rate_and_repeats_nothing() {
+    fn a_clean_line_carries_uploads_at_nine_tenths_of_its_rate_and_repeats_next_to_nothing() {
         for baud in BAUDS {
             let Row { figures, .. } = row(baud, 0.0);
             assert!(
                 figures.share_of_line_rate >= 0.9 && figures.share_of_line_rate < 0.96,
                 "{baud}: {figures:?}"
             );
-            assert_eq!((figures.repeated_frames, figures.damaged_frames), (0, 0), "{baud}");
+            // An event of the MCU may take the room of an answer; then a command is turned away and comes again.
+            let frames = figures.goodput_bytes_per_s * 10.0 / 128.0;
+            assert!(f64::from(figures.repeated_frames) < 0.02 * frames, "{baud}: {figures:?}");
+            assert_eq!(figures.damaged_frames, 0, "{baud}");
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::Transport;
 use crate::session::{RequestError, Session};
 use serde::Serialize;
+use std::collections::VecDeque;
 use zygote_protocol::{
     Action, CentiCelsius, Command, Heat, LinkCounters, MAX_AFTER, Micros, Milliamps, Millis, Reply, RigId,
     STEPS_PER_COMMAND, Step, program_crc,
@@ -91,23 +92,39 @@ fn uploads<T: Transport>(session: &mut Session<T>, time: Millis) -> Result<f64, 
     session.status()?;
     let (start, before) = (session.now(), session.link_counters());
     let end = start.plus(time);
+    let mut pending = VecDeque::new();
     while session.now() < end {
+        // The next program follows at once on the last steps of the one before.
         let (rig, crc) = (rig.clone(), program_crc(&steps));
         let upload = Command::Upload { run: 0, rig, steps: session.info().buffers.steps, crc };
-        let mut pending = vec![("upload", session.submit(upload)?)];
+        pending.push_back(("upload", session.submit(upload)?));
         for (first, chunk) in (0..).step_by(STEPS_PER_COMMAND).zip(steps.chunks(STEPS_PER_COMMAND)) {
             if session.now() >= end {
                 break;
             }
             let steps = chunk.iter().cloned().collect();
-            pending.push(("steps", session.submit(Command::Steps { first, steps })?));
-        }
-        for (command, id) in pending {
-            session.response(id)?.map_err(|refusal| RequestError::Refused { command, refusal })?;
+            pending.push_back(("steps", session.submit(Command::Steps { first, steps })?));
+            // Answered long ago.
+            if pending.len() > 2 * AT_ONCE {
+                take_done(session, &mut pending)?;
+            }
         }
     }
+    while !pending.is_empty() {
+        take_done(session, &mut pending)?;
+    }
+
     let delivered = |counters: LinkCounters| counters.delivered.wrapping_sub(before.delivered);
     Ok(f64::from(delivered(session.link_counters())) / seconds(session.now().since(start)))
+}
+
+/// Waits for the oldest answer.
+fn take_done<T: Transport>(
+    session: &mut Session<T>,
+    pending: &mut VecDeque<(&'static str, u16)>,
+) -> Result<(), RequestError> {
+    let Some((command, id)) = pending.pop_front() else { return Ok(()) };
+    session.response(id)?.map_err(|refusal| RequestError::Refused { command, refusal }).map(|_| ())
 }
 
 /// Status commands answered a second, with as many under way as the link takes.
@@ -115,7 +132,7 @@ fn commands<T: Transport>(session: &mut Session<T>, time: Millis) -> Result<f64,
     let start = session.now();
     let end = start.plus(time);
     let mut answered = 0_u32;
-    let mut pending = std::collections::VecDeque::new();
+    let mut pending = VecDeque::new();
     while session.now() < end || !pending.is_empty() {
         if session.now() < end && pending.len() < AT_ONCE {
             pending.push_back(session.submit(Command::Status)?);

@@ -149,10 +149,12 @@ impl<T: Transport> Session<T> {
         let request = Request { id, command };
         loop {
             // The MCU's answers and events share a window like this one: commands that fill it would be turned away.
+            // What is heard meanwhile needs no acknowledgement of its own: the command carries it.
             while self.link.room() <= ROOM_TO_SPARE {
                 let soon = self.transport.now().plus(SILENCE);
-                self.pump(soon)?;
+                self.hear(soon)?;
             }
+
             match self.link.send(&request) {
                 Ok(()) => break,
                 Err(SendError::Full) => {}
@@ -257,16 +259,27 @@ impl<T: Transport> Session<T> {
         Ok(Micros(self.transport.now().since(asked)))
     }
 
-    /// Sends what is due, waits for bytes until `deadline` or until something more is due, takes what came.
+    /// Sends what is due, waits for bytes until `deadline` or until something more is due, takes what came, and
+    /// acknowledges it: perhaps nobody asks this session for anything for a while.
     fn pump(&mut self, deadline: Micros) -> Result<(), SessionError> {
-        let broken = |line, source| SessionError::Line { line, source };
-        self.probe();
+        self.hear(deadline)?;
+        self.speak()
+    }
+
+    fn speak(&mut self) -> Result<(), SessionError> {
         let sent = transmit(&mut self.transport, &mut self.link);
-        sent.map_err(|source| broken(self.transport.name(), source))?;
+        sent.map_err(|source| SessionError::Line { line: self.transport.name(), source })
+    }
+
+    /// Sends what is due, waits for bytes until `deadline` or until something more is due, and takes what came.
+    fn hear(&mut self, deadline: Micros) -> Result<(), SessionError> {
+        self.probe();
+        self.speak()?;
+
         let wake = self.link.poll_timeout(self.transport.now()).map_or(deadline, |due| due.min(deadline));
         let mut buffer = [0; 1024];
         let received = self.transport.receive(&mut buffer, wake);
-        let count = received.map_err(|source| broken(self.transport.name(), source))?;
+        let count = received.map_err(|source| SessionError::Line { line: self.transport.name(), source })?;
         let now = self.transport.now();
         let mut bytes = buffer.get(..count).unwrap_or_default();
         while let Some(received) = self.link.receive(now, &mut bytes, true) {
@@ -282,8 +295,7 @@ impl<T: Transport> Session<T> {
         if silent > SILENCE.to_micros() {
             return Err(SessionError::Silent { line: self.transport.name(), silent_ms: silent / 1000 });
         }
-        let sent = transmit(&mut self.transport, &mut self.link);
-        sent.map_err(|source| broken(self.transport.name(), source))
+        Ok(())
     }
 }
 
