@@ -62,6 +62,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
 {
     /// A core in state Idle, everything off. `before` is what the board kept of the time before its reset.
     pub const fn new(config: Config, now: Micros, before: Option<Snapshot>) -> Self {
+        const { assert!(STEPS >= HEATERS + SERVOS + SPRINGS, "a program has a step a channel at most, and none is streamed") };
         Self {
             config,
             mode: Mode::Idle,
