@@ -16,6 +16,8 @@ PAGE = (BOOK / "protocol.md").read_text()
 
 FAULT = reports.Fault(Faulted.OVER_TEMPERATURE, at=5_000_000, step=3, channel=2, value=12_050, limit=-1)
 STATUS = reports.Status(1_000_000, reports.State.SAFE, 7, FAULT, opened=3, heaters_on=0, main_switch=False)
+FROZEN = reports.Fault(Faulted.SENSOR_FROZEN, at=5_000_000, step=3, channel=2, value=6_000, limit=1_500)
+SNAPSHOT = reports.Snapshot(9, 5_000_000, reports.State.SAFE, 7, FROZEN, steps=5, states=(0x4A, 0x01))
 LIMITS = Limits(max_temperature=12_000, max_on=30_000, min_rest=500, supply=2_000, link_timeout=1_000)
 HEAT = Heat(3, 9_500, 1_000, 20_000, 12_000, 4_500, 500, 500, 3_000, 200)
 STEPS = (
@@ -56,6 +58,7 @@ MESSAGES = [
     (commands.Request, request(commands.Start(7))),
     (commands.Request, request(commands.Disarm())),
     (commands.Request, request(commands.Clear())),
+    (commands.Request, request(commands.LastRun())),
     (commands.Urgent, commands.Urgent.STOP),
     (reports.Report, response(reports.Done())),
     (reports.Report, response(STATUS)),
@@ -69,11 +72,14 @@ MESSAGES = [
         reports.Report,
         reports.Response(513, reports.Rejected(reports.Refusal(Refused.LIMIT_ABOVE_CEILING, 3, 2_000, 3_000))),
     ),
+    (reports.Report, response(reports.LastRun(None))),
+    (reports.Report, response(reports.LastRun(SNAPSHOT))),
     (reports.Report, event(reports.Entered(reports.State.RUNNING))),
     (reports.Report, event(reports.StepStarted(1))),
     (reports.Report, event(reports.StepOpened(1))),
     (reports.Report, event(reports.StepDone(1, 9_700))),
     (reports.Fault, FAULT),
+    (reports.Fault, FROZEN),
     (
         reports.Telemetry,
         reports.Telemetry(70_000_000_000, reports.State.RUNNING, 4_950, 620, 9, MOTIONS),

@@ -64,7 +64,7 @@ impl Rig {
         };
         let channels = Channels { heaters: 2, servos: 1, springs: 1 };
         let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
-        let core = Core::new(config, Micros(0));
+        let core = Core::new(config, Micros(0), None);
         Self {
             core,
             now: Micros(0),

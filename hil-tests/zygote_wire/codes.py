@@ -45,3 +45,5 @@ class Faulted(enum.IntEnum):
     NO_GAIN = 10
     UNEXPECTED_HEAT = 11
     OVER_CURRENT = 12
+    SENSOR_FROZEN = 13
+    NO_COOLING = 14

@@ -126,7 +126,12 @@ class Clear:
     """Leave the safe state: a person has looked."""
 
 
-Command = Status | Progress | Upload | Steps | Commit | Arm | Start | Disarm | Clear
+@dataclasses.dataclass(frozen=True)
+class LastRun:
+    """What were you doing before you were reset?"""
+
+
+Command = Status | Progress | Upload | Steps | Commit | Arm | Start | Disarm | Clear | LastRun
 
 
 @dataclasses.dataclass(frozen=True)

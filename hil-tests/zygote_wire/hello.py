@@ -6,8 +6,8 @@ from typing import Annotated
 
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
-VERSION = 1
-SCHEMA = 0x8E5FD574
+VERSION = 2
+SCHEMA = 0x1A47BFE0
 
 
 class ResetCause(enum.IntEnum):
@@ -18,6 +18,7 @@ class ResetCause(enum.IntEnum):
     WATCHDOG = 2
     SOFTWARE = 3
     UNKNOWN = 4
+    DEAD_MAN = 5
 
 
 @dataclasses.dataclass(frozen=True)

@@ -4,7 +4,7 @@ import dataclasses
 import enum
 
 from zygote_wire.codes import Faulted, Refused
-from zygote_wire.postcard import I16, I64, U16, U32, U64
+from zygote_wire.postcard import I16, I64, U8, U16, U32, U64
 
 
 class State(enum.IntEnum):
@@ -66,7 +66,32 @@ class Progress:
     steps: tuple[StepState, ...]
 
 
-Reply = Done | Status | Progress
+@dataclasses.dataclass(frozen=True)
+class Snapshot:
+    """The MCU as it stood when it was reset; `states` has two bits a step, the lowest first."""
+
+    boot: U32
+    at: U64
+    state: State
+    run: U32 | None
+    fault: Fault | None
+    steps: U16
+    states: tuple[U8, ...]
+
+    def step(self, number: int) -> int:
+        """What had become of a step: 0 waiting, 1 interrupted, 2 open."""
+        byte, place = divmod(number, 4)
+        return self.states[byte] >> 2 * place & 3 if byte < len(self.states) else 0
+
+
+@dataclasses.dataclass(frozen=True)
+class LastRun:
+    """What the MCU was doing before it was reset."""
+
+    snapshot: Snapshot | None
+
+
+Reply = Done | Status | Progress | LastRun
 
 
 @dataclasses.dataclass(frozen=True)

@@ -156,5 +156,11 @@ codes! {
         OverCurrent = 13, "the supply gives more current than allowed",
             "current and limit, in mA; acts 10 % above it", BUT_MOVING,
             "look for a short or a blocked servo";
+        SensorFrozen = 14, "a thermistor's reading stands still while the power of its heater changes",
+            "reading, in 0.01 °C; time, in ms", "not of this hinge: perhaps half open",
+            "check the thermistor's wire and the multiplexer";
+        NoCooling = 15, "a heater that is off doesn't cool: shorted MOSFET, frozen thermistor or too hot a place",
+            "fall and least fall in 10 s, in 0.01 °C", "not of this hinge: it may be heated still",
+            "keep the supply off; check MOSFET and thermistor; at more than 40 °C around it raise the rig file's cool_to";
     }
 }

@@ -11,8 +11,9 @@
 //! | `Start` | Armed | Running |
 //! | `Disarm` | Armed, Running | everything off; Loaded |
 //! | `Clear` | Safe | a person has looked; Idle |
+//! | `LastRun` | any | none |
 
-use crate::{Fault, Limits, Micros, Millis, RefusalCode, Step};
+use crate::{Fault, Limits, Micros, Millis, RefusalCode, Snapshot, Step};
 use heapless::{String, Vec};
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
@@ -87,6 +88,8 @@ pub enum Command {
     Disarm,
     /// Leave the safe state after a fault, a stop or a lost link.
     Clear,
+    /// What were you doing before you were reset? Answered by [`Reply::LastRun`].
+    LastRun,
 }
 
 /// The answer to a [`Request`].
@@ -112,6 +115,8 @@ pub enum Reply {
         /// The states from there on.
         steps: Vec<StepState, PROGRESS_PER_REPLY>,
     },
+    /// To [`Command::LastRun`]; `None` after power was off, or where nothing had happened.
+    LastRun(Option<Snapshot>),
 }
 
 /// Why a command was refused; it then changed nothing.

@@ -9,9 +9,9 @@ use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
 
 /// The protocol version that this crate speaks.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 /// The oldest protocol version that this crate still understands.
-pub const VERSION_MIN: u16 = 1;
+pub const VERSION_MIN: u16 = 2;
 
 /// Host to MCU: opens the session whose number stands in the frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
@@ -85,6 +85,8 @@ pub enum ResetCause {
     Software,
     /// The chip doesn't say.
     Unknown,
+    /// The dead man's switch turned everything off: the control loop stood still, or the host was silent and nobody acted.
+    DeadMan,
 }
 
 /// How many actuators of each kind a board drives; channels are numbered from 0.

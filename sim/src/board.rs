@@ -10,17 +10,20 @@ use crate::plant::{Config as PlantConfig, Drive, Plant, PlantError};
 use core::time::Duration;
 use zygote_core::{Config, Core, Inputs, NTC_10K};
 use zygote_protocol::{
-    CentiCelsius, Channels, Identity, Limits, MAX_ENCODED, Micros, Milliamps, Millis, ResetCause,
+    CentiCelsius, Channels, Identity, Limits, MAX_ENCODED, Micros, Milliamps, Millis, ResetCause, Retained,
 };
 
 /// Time between two control ticks: as slow as the core allows, to be fast.
 const TICK: Millis = Millis(5);
 
+/// The watchdog resets an MCU that hasn't fed it for so long (S9).
+const WATCHDOG: Millis = Millis(400);
+
 /// Channels and steps that the simulated board has room for.
 const HEATERS: usize = 256;
-const SERVOS: usize = 256;
-const SPRINGS: usize = 256;
-const STEPS: usize = 512;
+const SERVOS: usize = 192;
+const SPRINGS: usize = 64;
+const STEPS: usize = HEATERS + SERVOS + SPRINGS;
 
 /// The firmware core as the simulated board runs it.
 pub type SimCore = Core<HEATERS, SERVOS, SPRINGS, STEPS>;
@@ -34,6 +37,15 @@ pub const CEILING: Limits = Limits {
     link_timeout: Millis(5_000),
 };
 
+/// How an MCU is stuck.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stuck {
+    /// Its tasks don't run any more, its timer interrupt does: the dead man's switch acts.
+    Tasks,
+    /// Nothing runs any more; outputs stay as they are until the watchdog acts.
+    Everything,
+}
+
 /// A simulated board.
 pub struct Board {
     core: Box<SimCore>,
@@ -43,6 +55,9 @@ pub struct Board {
     now: Micros,
     next_tick: Micros,
     stop_pressed: bool,
+    stuck: Option<(Stuck, Micros)>,
+    /// Memory that a reset leaves alone, and the core's changes that it holds.
+    retained: (u32, Retained),
 }
 
 impl Board {
@@ -52,8 +67,18 @@ impl Board {
     /// [`PlantError`] for a plant that can't be.
     pub fn new(plant: &PlantConfig, channels: Channels, boot: u32) -> Result<Self, PlantError> {
         let plant = Plant::new(plant)?;
-        let core = Box::new(Core::new(config(channels, boot, ResetCause::Power), Micros(0)));
-        Ok(Self { core, plant, channels, boot, now: Micros(0), next_tick: Micros(0), stop_pressed: false })
+        let core = Box::new(Core::new(config(channels, boot, ResetCause::Power), Micros(0), None));
+        Ok(Self {
+            core,
+            plant,
+            channels,
+            boot,
+            now: Micros(0),
+            next_tick: Micros(0),
+            stop_pressed: false,
+            stuck: None,
+            retained: (0, Retained::NOTHING),
+        })
     }
 
     /// Virtual time since the board was switched on.
@@ -84,16 +109,40 @@ impl Board {
     /// Resets the MCU; the plant goes on. The clock goes on too, as seen from outside.
     pub fn reset(&mut self, cause: ResetCause) {
         self.boot = self.boot.wrapping_add(1);
-        *self.core = Core::new(config(self.channels, self.boot, cause), self.now);
+        self.stuck = None;
+        let before = if cause == ResetCause::Power { None } else { self.retained.1.recall() };
+        *self.core = Core::new(config(self.channels, self.boot, cause), self.now, before);
+        self.retained = (0, Retained::NOTHING);
+        self.next_tick = self.now.plus(TICK);
+    }
+
+    /// Stops the MCU's program from now on, until a reset.
+    pub fn hang(&mut self, stuck: Stuck) {
+        self.stuck = Some((stuck, self.now));
+    }
+
+    /// Writes down what must outlive a reset.
+    fn retain(&mut self) {
+        let changes = self.core.changes();
+        if changes != self.retained.0 {
+            self.retained = (changes, Retained::new(&self.core.snapshot(self.now)));
+        }
     }
 
     /// Takes bytes from the host, now.
     pub fn receive(&mut self, bytes: &[u8]) {
-        self.core.handle_bytes(self.now, bytes);
+        // A stuck program leaves them in the line's buffer, which runs over.
+        if self.stuck.is_none() {
+            self.core.handle_bytes(self.now, bytes);
+            self.retain();
+        }
     }
 
     /// Appends the bytes that the core has for the host, now.
     pub fn transmit(&mut self, out: &mut Vec<u8>) {
+        if self.stuck.is_some() {
+            return;
+        }
         let mut frame = [0; MAX_ENCODED];
         loop {
             let length = self.core.poll_transmit(self.now, &mut frame);
@@ -109,7 +158,7 @@ impl Board {
     /// # Errors
     /// [`PlantError`], which a drive of this board never causes.
     pub fn advance(&mut self, until: Micros) -> Result<(), PlantError> {
-        let to = self.next_tick.min(until).max(self.now);
+        let to = self.reset_due().unwrap_or(self.next_tick).min(until).max(self.now);
         let outputs = self.core.outputs();
         let drive = Drive {
             heaters: &outputs.heaters,
@@ -119,6 +168,32 @@ impl Board {
         };
         self.plant.advance(Duration::from_micros(to.since(self.now)), &drive)?;
         self.now = to;
+        match self.stuck {
+            None => self.tick(),
+            Some((stuck, _)) if self.reset_due().is_some_and(|due| self.now >= due) => {
+                self.reset(if stuck == Stuck::Tasks && self.core.dead_line().is_some() {
+                    ResetCause::DeadMan
+                } else {
+                    ResetCause::Watchdog
+                });
+            }
+            Some(_) => {}
+        }
+        Ok(())
+    }
+
+    /// When a stuck MCU is reset: by the dead man's switch, which its timer interrupt looks after, else by the watchdog.
+    fn reset_due(&self) -> Option<Micros> {
+        let (stuck, since) = self.stuck?;
+        let watchdog = since.plus(WATCHDOG);
+        Some(match stuck {
+            Stuck::Tasks => self.core.dead_line().map_or(watchdog, |line| line.min(watchdog)),
+            Stuck::Everything => watchdog,
+        })
+    }
+
+    /// The control tick, where it is due.
+    fn tick(&mut self) {
         if self.now >= self.next_tick {
             self.next_tick = self.now.plus(TICK);
             let readings = self.plant.sense();
@@ -129,8 +204,8 @@ impl Board {
                 stop_pressed: self.stop_pressed,
             };
             self.core.tick(self.now, &inputs);
+            self.retain();
         }
-        Ok(())
     }
 }
 

@@ -4,5 +4,5 @@ mod board;
 pub mod plant;
 mod pty;
 
-pub use board::{Board, CEILING, SimCore};
+pub use board::{Board, CEILING, SimCore, Stuck};
 pub use pty::{Pty, ServeError};

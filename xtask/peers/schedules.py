@@ -6,18 +6,22 @@ Prints a Markdown table. `cargo xtask bench deployment --peers` runs it.
 """
 
 import json
+import math
 import sys
 import time
 from pathlib import Path
 
 from ortools.sat.python import cp_model
 
-TIMEOUT_S = 30
+TIMEOUT_S = 8
 
 
 def shortest(problem):
     """The makespan that CP-SAT finds, the bound that it proves, and how it names the result."""
-    tasks, limit = problem["tasks"], problem["limit"]
+    limit = problem["limit"]
+    # In units that divide all times, which spares the solver much.
+    unit = math.gcd(*(duration for duration, _, _ in problem["tasks"]))
+    tasks = [(duration // unit, current, hold) for duration, current, hold in problem["tasks"]]
     horizon = sum(duration for duration, _, _ in tasks)
     model = cp_model.CpModel()
     end_of_all = model.new_int_var(0, horizon, "end")
@@ -43,8 +47,8 @@ def shortest(problem):
     solver.parameters.num_workers = 2
     solver.parameters.random_seed = 1
     status = solver.solve(model)
-    found = round(solver.objective_value) if status in (cp_model.OPTIMAL, cp_model.FEASIBLE) else None
-    return found, round(solver.best_objective_bound), solver.status_name(status).lower()
+    found = round(solver.objective_value) * unit if status in (cp_model.OPTIMAL, cp_model.FEASIBLE) else None
+    return found, round(solver.best_objective_bound) * unit, solver.status_name(status).lower()
 
 
 def main():

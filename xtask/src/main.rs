@@ -40,6 +40,7 @@ fn main() -> ExitCode {
         match (verb.as_str(), name.as_str()) {
             ("bench", "stacking") => return told(bench::stacking::run(options)),
             ("bench", "deployment") => return told(bench::deployment::run(options)),
+            ("bench", "motion") => return told(bench::motion::run(options)),
             _ => {}
         }
     }
@@ -73,7 +74,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

@@ -31,7 +31,11 @@ fn core() -> Core<16, 8, 8, 128> {
         link_timeout: Millis(1_000),
     };
     let channels = Channels { heaters: 16, servos: 8, springs: 8 };
-    Core::new(Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 }, NOW)
+    Core::new(
+        Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 },
+        NOW,
+        None,
+    )
 }
 
 fn frame(link: &mut Link) -> Vec<u8> {

@@ -24,12 +24,14 @@ use crate::trip::Trip;
 use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
     Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Received,
-    RefusalCode, Report, Request, Response, State, StepState, Telemetry, Urgent, VERSION, VERSION_MIN,
-    WINDOW, decode_payload, peek_request_id, peek_versions, schema,
+    RefusalCode, Report, Request, Response, Snapshot, State, StepState, Telemetry, Urgent, VERSION,
+    VERSION_MIN, WINDOW, decode_payload, peek_request_id, peek_versions, schema,
 };
 
 /// Time between two telemetry messages.
 const TELEMETRY_EVERY: Millis = Millis(100);
+/// The core acts within this of a lost link, and is ticked this often; if not, the dead man's switch acts.
+const DEAD_MAN_GRACE: Millis = Millis(30);
 /// Link room that events leave to responses.
 const ROOM_FOR_RESPONSES: usize = 2;
 
@@ -46,6 +48,10 @@ pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize,
     link: Link,
     events: EventQueue,
     supply_guard: SupplyGuard,
+    /// What was left of the time before the last reset.
+    pub(crate) before: Option<Snapshot>,
+    /// Time of the latest control tick.
+    ticked: Micros,
     telemetry_due: Micros,
     supply: Millivolts,
     current: Milliamps,
@@ -54,8 +60,14 @@ pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize,
 impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEPS: usize>
     Core<HEATERS, SERVOS, SPRINGS, STEPS>
 {
-    /// A core in state Idle, everything off.
-    pub const fn new(config: Config, now: Micros) -> Self {
+    /// A core in state Idle, everything off. `before` is what the board kept of the time before its reset.
+    pub const fn new(config: Config, now: Micros, before: Option<Snapshot>) -> Self {
+        const {
+            assert!(
+                STEPS >= HEATERS + SERVOS + SPRINGS,
+                "a program has a step a channel at most, and none is streamed"
+            )
+        };
         Self {
             config,
             mode: Mode::Idle,
@@ -67,6 +79,8 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             link: Link::new(now),
             events: EventQueue::new(),
             supply_guard: SupplyGuard::new(),
+            before,
+            ticked: now,
             telemetry_due: now,
             supply: Millivolts(0),
             current: Milliamps(0),
@@ -91,6 +105,30 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     /// The state of every step of the program.
     pub fn step_states(&self) -> impl Iterator<Item = StepState> {
         self.sequencer.states()
+    }
+
+    /// A number that changes with everything that [`Self::snapshot`] tells but the time.
+    pub fn changes(&self) -> u32 {
+        self.events.count()
+    }
+
+    /// What is to be kept over a reset (S9): boards write it down whenever [`Self::changes`] is another.
+    pub fn snapshot(&self, now: Micros) -> Snapshot {
+        let (state, run, fault) = (self.mode.state(), self.program.run(), self.mode.fault());
+        let mut snapshot = Snapshot::new(self.config.identity.boot, now, state, run, fault);
+        self.sequencer.states().for_each(|state| snapshot.push(state));
+        snapshot
+    }
+
+    /// When nothing may be energised any more unless this core is heard of again: the board's dead man's switch acts then,
+    /// whatever became of the core (S3). `None` while nothing is energised.
+    pub fn dead_line(&self) -> Option<Micros> {
+        let limits = match self.mode {
+            Mode::Armed { limits, .. } | Mode::Running(limits) => limits,
+            Mode::Idle | Mode::Loaded | Mode::Finished | Mode::Safe(_) => return None,
+        };
+        let heard = self.link.last_heard().plus(limits.link_timeout).plus(DEAD_MAN_GRACE);
+        Some(heard.min(self.ticked.plus(DEAD_MAN_GRACE)))
     }
 
     /// What the link has seen.
@@ -193,6 +231,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     /// The control tick: takes a reading of everything and decides what every actuator does. Boards call it at
     /// least every 5 ms, so that a stop and a lost link act in time (S3, S8).
     pub fn tick(&mut self, now: Micros, inputs: &Inputs<'_>) {
+        self.ticked = now;
         self.supply = inputs.supply;
         self.current = inputs.current;
         self.stop_pressed = inputs.stop_pressed;

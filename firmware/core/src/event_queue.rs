@@ -10,11 +10,17 @@ const RESERVE: usize = 8;
 #[derive(Debug)]
 pub(crate) struct EventQueue {
     waiting: Deque<Event, CAPACITY>,
+    count: u32,
 }
 
 impl EventQueue {
     pub(crate) const fn new() -> Self {
-        Self { waiting: Deque::new() }
+        Self { waiting: Deque::new(), count: 0 }
+    }
+
+    /// How many events there ever were.
+    pub(crate) fn count(&self) -> u32 {
+        self.count
     }
 
     /// How many events of motions still fit.
@@ -24,6 +30,7 @@ impl EventQueue {
 
     /// Adds an event; when the queue is full, the oldest one goes.
     pub(crate) fn push(&mut self, event: Event) {
+        self.count = self.count.wrapping_add(1);
         if let Err(event) = self.waiting.push_back(event) {
             self.waiting.pop_front();
             // There is room now: one was just taken out.

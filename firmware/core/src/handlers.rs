@@ -27,6 +27,7 @@ pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS
         Command::Start { run } => start(core, now, run),
         Command::Disarm => disarm(core, now),
         Command::Clear => clear(core, now),
+        Command::LastRun => Ok(Reply::LastRun(core.before.clone())),
     }
 }
 

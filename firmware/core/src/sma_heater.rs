@@ -3,25 +3,63 @@
 //! ```text
 //!   start -> Heat --target reached--> Hold --held long enough--> Cool --cool and rested--> Done
 //!              |                       |                           the hinge is open from here on
-//!              +-- on for too long, no gain: trip (everything off)
+//!              +-- on for too long, gain or sensor lost: trip (everything off)
 //! ```
 //!
-//! Too hot, bad sensors and heat without heating are the business of `thermal_guard`, which watches in every state.
+//! A reading is believed only as long as it follows the power (S5, S6). One that stands still is put to the test: the heater goes off,
+//! and a live thermistor must show it. One that doesn't rise, or falls, while the heater is on has lost the hinge.
+//!
+//! Too hot, open, shorted and jumping sensors, and heat without heating are the business of `thermal_guard`, which watches in every
+//! state.
 
 use crate::io::Duty;
 use crate::trip::Trip;
-use zygote_protocol::{CentiCelsius, FaultCode, Heat, Micros, Phase, StepState};
+use zygote_protocol::{CentiCelsius, FaultCode, Heat, Micros, Millis, Phase, StepState};
 
 /// Full power up to the target, none from this far above it on, proportionally less in between: so the target is
 /// passed by any heater that can reach it at all. Narrower, the lag of the thermistor would make it swing.
 const BAND: i16 = 400;
+/// A reading that is the same to the bit for so long while the heater is on is put to the test. The fastest of our hinges
+/// warms by some 10 K in that time.
+const STILL: Millis = Millis(500);
+/// A hinge that was above ambient cools by more than a count of the converter in so long, seen through the slowest thermistor.
+const TEST: Millis = Millis(1_000);
+/// After the first gain window the foil may be transforming, which takes up heat: a quarter of the first gain will do.
+const LATER_SHARE: i16 = 4;
+/// While the heater is on, a reading so far below its highest has come off the hinge.
+const FALL: i16 = 500;
+/// While it holds, a reading so far below the target.
+const SAG: i16 = 1_000;
+/// In so long an opened hinge cools by at least so much, until it is cool. The slowest of our hinges does that as long as the air is
+/// 2 K below the temperature at which it counts as cool.
+const COOLING: (Millis, i16) = (Millis(10_000), 100);
 
 #[derive(Debug, Clone, Copy)]
 enum State {
-    Heat { on: Micros, cold: CentiCelsius },
+    Heat { on: Micros, window: Window },
     Hold { on: Micros, reached: Micros },
-    Cool { off: Micros },
+    Cool { off: Micros, window: Window },
     Done,
+}
+
+/// A time in which heating must raise the temperature by this much, or cooling lower it.
+#[derive(Debug, Clone, Copy)]
+struct Window {
+    since: Micros,
+    from: CentiCelsius,
+    gain: i16,
+    /// Highest reading since heating began, or since the latest test of a still one.
+    top: CentiCelsius,
+}
+
+/// A reading that stands still.
+#[derive(Debug, Clone, Copy)]
+struct Still {
+    reading: CentiCelsius,
+    /// For as long as the heater was on.
+    since: Micros,
+    /// The heater was turned off for the sake of it.
+    tested: Option<Micros>,
 }
 
 /// One heater at work.
@@ -29,13 +67,16 @@ enum State {
 pub(crate) struct SmaHeater {
     spec: Heat,
     state: State,
+    still: Still,
     peak: CentiCelsius,
     duty: Duty,
 }
 
 impl SmaHeater {
     pub(crate) fn start(spec: Heat, now: Micros, cold: CentiCelsius) -> Self {
-        Self { spec, state: State::Heat { on: now, cold }, peak: cold, duty: Duty::OFF }
+        let window = Window { since: now, from: cold, gain: spec.min_gain.0, top: cold };
+        let still = Still { reading: cold, since: now, tested: None };
+        Self { spec, state: State::Heat { on: now, window }, still, peak: cold, duty: Duty::OFF }
     }
 
     pub(crate) fn channel(&self) -> u16 {
@@ -73,31 +114,43 @@ impl SmaHeater {
     /// Decides the power for this temperature.
     ///
     /// # Errors
-    /// On for too long, or no gain.
+    /// On for too long, no gain, no cooling, or a reading that doesn't follow the power.
     pub(crate) fn advance(&mut self, now: Micros, temperature: CentiCelsius) -> Result<(), Trip> {
         self.peak = self.peak.max(temperature);
         if let State::Heat { on, .. } | State::Hold { on, .. } = self.state {
             self.check_on_time(now, on)?;
+            self.check_still(now, temperature)?;
         }
-        if let State::Heat { on, cold } = self.state {
+        if let State::Heat { on, window } = self.state {
             if temperature >= self.spec.target {
                 self.state = State::Hold { on, reached: now };
             } else {
-                self.check_gain(now, on, cold, temperature)?;
+                let window = self.check_gain(now, window, temperature)?;
+                self.state = State::Heat { on, window };
             }
+        }
+        if let State::Hold { .. } = self.state {
+            self.check_sag(temperature)?;
         }
         if let State::Hold { reached, .. } = self.state
             && now >= reached.plus(self.spec.hold)
         {
-            self.state = State::Cool { off: now };
+            self.state = State::Cool {
+                off: now,
+                window: Window { since: now, from: temperature, gain: COOLING.1, top: temperature },
+            };
         }
-        if let State::Cool { off } = self.state
-            && temperature <= self.spec.cool
-            && now >= off.plus(self.spec.rest)
-        {
-            self.state = State::Done;
+        if let State::Cool { off, window } = self.state {
+            self.state = if temperature > self.spec.cool {
+                State::Cool { off, window: check_cooling(now, window, temperature)? }
+            } else if now >= off.plus(self.spec.rest) {
+                State::Done
+            } else {
+                self.state
+            };
         }
         self.duty = match self.state {
+            State::Heat { .. } | State::Hold { .. } if self.still.tested.is_some() => Duty::OFF,
             State::Heat { .. } | State::Hold { .. } => thermostat(self.spec.target, temperature),
             State::Cool { .. } | State::Done => Duty::OFF,
         };
@@ -113,19 +166,66 @@ impl SmaHeater {
         Err(Trip::new(FaultCode::OnTooLong, milliseconds, most.0))
     }
 
-    fn check_gain(
-        &self,
-        now: Micros,
-        on: Micros,
-        cold: CentiCelsius,
-        warm: CentiCelsius,
-    ) -> Result<(), Trip> {
-        let gain = warm.0.saturating_sub(cold.0);
-        if now < on.plus(self.spec.gain_window) || gain >= self.spec.min_gain.0 {
-            return Ok(());
+    /// Puts a reading that stands still to the test, and ends the test once it moves.
+    fn check_still(&mut self, now: Micros, temperature: CentiCelsius) -> Result<(), Trip> {
+        if temperature != self.still.reading {
+            self.still = Still { reading: temperature, since: now, tested: None };
+        } else if let Some(off) = self.still.tested {
+            if now >= off.plus(TEST) {
+                return Err(Trip::new(
+                    FaultCode::SensorFrozen,
+                    temperature.0,
+                    STILL.0.saturating_add(TEST.0),
+                ));
+            }
+        } else if self.duty == Duty::OFF {
+            self.still.since = now;
+        } else if now >= self.still.since.plus(STILL) {
+            self.still.tested = Some(now);
         }
-        Err(Trip::new(FaultCode::NoGain, gain, self.spec.min_gain.0))
+        Ok(())
     }
+
+    /// Holds the reading against what heating must have done to it, and opens the next window when this one is over. A test of a still
+    /// reading opens a new window: the heater was off.
+    fn check_gain(&self, now: Micros, window: Window, warm: CentiCelsius) -> Result<Window, Trip> {
+        let next = |gain, top| Window { since: now, from: warm, gain, top };
+        if self.still.tested.is_some() {
+            return Ok(next(window.gain, warm));
+        }
+        let top = window.top.max(warm);
+        let fall = top.0.saturating_sub(warm.0);
+        if fall > FALL {
+            return Err(Trip::new(FaultCode::NoGain, fall.saturating_neg(), window.gain));
+        }
+        if now < window.since.plus(self.spec.gain_window) {
+            return Ok(Window { top, ..window });
+        }
+        let gain = warm.0.saturating_sub(window.from.0);
+        if gain < window.gain {
+            return Err(Trip::new(FaultCode::NoGain, gain, window.gain));
+        }
+        let left = self.spec.target.0.saturating_sub(warm.0);
+        Ok(next((self.spec.min_gain.0 / LATER_SHARE).min(left), top))
+    }
+
+    /// A hinge that is held doesn't get cold.
+    fn check_sag(&self, temperature: CentiCelsius) -> Result<(), Trip> {
+        let sag = self.spec.target.0.saturating_sub(temperature.0);
+        if sag > SAG { Err(Trip::new(FaultCode::NoGain, sag.saturating_neg(), 0)) } else { Ok(()) }
+    }
+}
+
+/// Holds an opened hinge against how it must cool, and opens the next window when this one is over.
+fn check_cooling(now: Micros, window: Window, temperature: CentiCelsius) -> Result<Window, Trip> {
+    if now < window.since.plus(COOLING.0) {
+        return Ok(window);
+    }
+    let fall = window.from.0.saturating_sub(temperature.0);
+    if fall < window.gain {
+        return Err(Trip::new(FaultCode::NoCooling, fall, window.gain));
+    }
+    Ok(Window { since: now, from: temperature, ..window })
 }
 
 /// Proportional control in a band above the target.
@@ -180,8 +280,10 @@ mod tests {
     #[test]
     fn s4_a_heater_that_never_gets_there_trips_on_time() {
         let mut heater = SmaHeater::start(SPEC, ms(0), COLD);
-        heater.advance(ms(9_999), CentiCelsius(8_000)).unwrap();
-        let trip = heater.advance(ms(10_000), CentiCelsius(8_000)).unwrap_err();
+        for at in 0..100 {
+            heater.advance(ms(100 * at), CentiCelsius(2_200 + 60 * i16::try_from(at).unwrap())).unwrap();
+        }
+        let trip = heater.advance(ms(10_000), CentiCelsius(8_200)).unwrap_err();
         assert_eq!(trip, Trip::new(FaultCode::OnTooLong, 10_000, 10_000));
     }
 
@@ -191,6 +293,89 @@ mod tests {
         heater.advance(ms(1_999), CentiCelsius(2_600)).unwrap();
         let trip = heater.advance(ms(2_000), CentiCelsius(2_600)).unwrap_err();
         assert_eq!(trip, Trip::new(FaultCode::NoGain, 400, 500));
+    }
+
+    /// Feeds readings 100 ms apart until one trips.
+    fn feed(
+        heater: &mut SmaHeater,
+        from_ms: u64,
+        readings: &mut dyn Iterator<Item = i16>,
+    ) -> Option<(u64, Trip)> {
+        (0..).zip(readings).find_map(|(at, reading)| {
+            let at = from_ms + 100 * at;
+            heater.advance(ms(at), CentiCelsius(reading)).err().map(|trip| (at, trip))
+        })
+    }
+
+    /// A heater whose readings rise by 10 °C a second from 22 °C up to `to`.
+    fn heated(to: i16) -> (SmaHeater, u64) {
+        let mut heater = SmaHeater::start(SPEC, ms(0), COLD);
+        let steps = (to - COLD.0) / 100;
+        assert_eq!(feed(&mut heater, 0, &mut (0..=steps).map(|step| COLD.0 + 100 * step)), None);
+        (heater, 100 * u64::try_from(steps + 1).unwrap())
+    }
+
+    #[test]
+    fn s5_a_reading_that_stands_still_turns_the_heater_off_and_trips_if_it_goes_on() {
+        // While heating, and while holding.
+        for frozen in [6_000, 9_100] {
+            let (mut heater, now) = heated(frozen);
+            assert_ne!(heater.duty(), Duty::OFF);
+            assert_eq!(feed(&mut heater, now, &mut [frozen; 4].into_iter()), None);
+            assert_ne!(heater.duty(), Duty::OFF, "400 ms are no reason");
+            assert_eq!(feed(&mut heater, now + 400, &mut [frozen; 1].into_iter()), None);
+            assert_eq!(heater.duty(), Duty::OFF, "it is put to the test");
+            // A hold would end before the test does.
+            if frozen == 6_000 {
+                let trip = feed(&mut heater, now + 500, &mut [frozen; 20].into_iter());
+                assert_eq!(trip, Some((now + 1_400, Trip::new(FaultCode::SensorFrozen, frozen, 1_500))));
+            }
+        }
+    }
+
+    #[test]
+    fn s5_a_live_sensor_passes_the_test_and_heating_goes_on() {
+        let (mut heater, now) = heated(6_000);
+        assert_eq!(feed(&mut heater, now, &mut [6_000; 8].into_iter()), None);
+        assert_eq!(heater.duty(), Duty::OFF);
+        assert_eq!(feed(&mut heater, now + 800, &mut [5_980].into_iter()), None);
+        assert_eq!(heater.duty(), Duty::FULL);
+    }
+
+    #[test]
+    fn s6_the_gain_goes_on_being_watched_after_the_first_window() {
+        let (mut heater, now) = heated(6_000);
+        // Too slow, but no two readings alike: 1 °C in two seconds, in noise.
+        let trip = feed(&mut heater, now, &mut (0..100).map(|at| 6_000 + at * 5 + at % 2 * 20));
+        let (at, trip) = trip.expect("no gain");
+        assert_eq!((trip.code, trip.limit), (FaultCode::NoGain, 125));
+        assert!(at <= now + 4_100, "at most what is left of one window, and one more: {at} ms, {now} ms");
+    }
+
+    #[test]
+    fn s6_a_reading_that_falls_while_heating_trips_at_once() {
+        let (mut heater, now) = heated(6_000);
+        let trip = feed(&mut heater, now, &mut (1..20).map(|at| 6_000 - 200 * at));
+        assert_eq!(trip, Some((now + 200, Trip::new(FaultCode::NoGain, -600, 125))));
+    }
+
+    #[test]
+    fn s6_a_reading_that_sags_while_holding_trips() {
+        let (mut heater, now) = heated(9_000);
+        let trip = feed(&mut heater, now, &mut (1..8).map(|at| 9_000 - 400 * at));
+        assert_eq!(trip, Some((now + 200, Trip::new(FaultCode::NoGain, -1_200, 0))));
+    }
+
+    #[test]
+    fn s6_an_opened_hinge_that_does_not_cool_trips() {
+        let (mut heater, now) = heated(9_000);
+        // Held for a second.
+        assert_eq!(feed(&mut heater, now, &mut [9_050, 9_060].into_iter().cycle().take(11)), None);
+        assert_eq!(heater.step_state(), StepState::Opened);
+        let trip = feed(&mut heater, now + 1_100, &mut [9_050, 9_060].into_iter().cycle().take(200));
+        let (at, trip) = trip.expect("no cooling");
+        assert_eq!((trip.code, trip.limit), (FaultCode::NoCooling, 100));
+        assert!((now + 10_000..=now + 11_100).contains(&at), "{at} ms, {now} ms");
     }
 
     #[test]

@@ -4,8 +4,8 @@
 use zygote_core::{Config, Core, NTC_10K, Outputs};
 use zygote_protocol::{
     CentiCelsius, Channels, Command, Decoder, FrameKind, Header, Hello, Identity, Limits, MAX_ENCODED,
-    Micros, Milliamps, Millis, Reply, Report, Request, ResetCause, RigId, State, WINDOW, decode_payload,
-    encode,
+    Micros, Milliamps, Millis, Reply, Report, Request, ResetCause, RigId, State, VERSION, WINDOW,
+    decode_payload, encode,
 };
 
 type TheCore = Core<1, 1, 1, 4>;
@@ -37,7 +37,7 @@ impl Bench {
         };
         let channels = Channels { heaters: 1, servos: 1, springs: 1 };
         let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
-        let mut bench = Self { core: Core::new(config, Micros(0)), now: Micros(1_000) };
+        let mut bench = Self { core: Core::new(config, Micros(0), None), now: Micros(1_000) };
         assert_eq!(bench.hello(SESSION).len(), 1);
         bench
     }
@@ -192,7 +192,7 @@ fn s11_an_old_hello_that_comes_late_is_answered_and_leaves_the_new_session_open(
 #[test]
 fn s11_a_hello_of_another_version_leaves_an_open_session_alone() {
     let mut bench = Bench::new();
-    let other = Hello { min: 2, current: 3, schema: 1 };
+    let other = Hello { min: VERSION + 1, current: VERSION + 2, schema: 1 };
     let header = Header { kind: FrameKind::Hello, session: SESSION + 1, seq: 0, ack: 0 };
     assert_eq!(kinds(&bench.hear(&frame(header, &postcard_of(&other)))), [FrameKind::HelloReply]);
     assert_eq!(answered(&bench.hear(&request(SESSION, 0, 0, Command::Status))), [0]);

@@ -3,7 +3,7 @@
 use zygote_core::{Config, Core, NTC_10K};
 use zygote_protocol::{
     CentiCelsius, Channels, Decoder, FrameKind, Header, Hello, HelloReply, Identity, Limits, MAX_ENCODED,
-    Micros, Milliamps, Millis, NO_SESSION, ResetCause, decode_payload, encode, schema,
+    Micros, Milliamps, Millis, NO_SESSION, ResetCause, VERSION, VERSION_MIN, decode_payload, encode, schema,
 };
 
 const NOW: Micros = Micros(1_000);
@@ -26,7 +26,7 @@ fn core() -> Core<1, 1, 1, 4> {
     };
     let channels = Channels { heaters: 1, servos: 1, springs: 1 };
     let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
-    Core::new(config, NOW)
+    Core::new(config, NOW, None)
 }
 
 /// What the core answers to a hello frame of these bytes.
@@ -42,8 +42,9 @@ fn answer(core: &mut Core<1, 1, 1, 4>, session: u32, payload: &[u8]) -> Option<(
 }
 
 /// The versions, the schema hash in its five bytes, and what follows in some later version.
-fn hello(min: u8, current: u8, schema: u32, more: &[u8]) -> Vec<u8> {
-    let mut bytes = vec![min, current];
+fn hello(min: u16, current: u16, schema: u32, more: &[u8]) -> Vec<u8> {
+    // Below 128 a version is one byte.
+    let mut bytes = vec![u8::try_from(min).unwrap(), u8::try_from(current).unwrap()];
     bytes.extend((0..5).map(|at| (schema >> (7 * at) & 0x7f) as u8 | if at < 4 { 0x80 } else { 0 }));
     bytes.extend(more);
     bytes
@@ -57,8 +58,8 @@ fn is_closed(core: &mut Core<1, 1, 1, 4>) -> bool {
 #[test]
 fn a_hello_of_this_version_opens_its_session() {
     let mut core = core();
-    assert_eq!(decode_payload(&hello(1, 1, schema::hash(), &[])), Some(Hello::ours()));
-    let (header, reply) = answer(&mut core, 5, &hello(1, 1, schema::hash(), &[])).unwrap();
+    assert_eq!(decode_payload(&hello(VERSION, VERSION, schema::hash(), &[])), Some(Hello::ours()));
+    let (header, reply) = answer(&mut core, 5, &hello(VERSION, VERSION, schema::hash(), &[])).unwrap();
     assert_eq!((header.kind, header.session, reply.identity.boot), (FrameKind::HelloReply, 5, 7));
     assert!(!is_closed(&mut core));
 }
@@ -66,16 +67,17 @@ fn a_hello_of_this_version_opens_its_session() {
 #[test]
 fn a_hello_of_a_later_version_with_more_fields_is_answered_and_opens_nothing() {
     let mut core = core();
-    let (header, reply) = answer(&mut core, 5, &hello(2, 3, 0x1234_5678, &[1, 2, 3])).unwrap();
+    let (header, reply) =
+        answer(&mut core, 5, &hello(VERSION + 1, VERSION + 2, 0x1234_5678, &[1, 2, 3])).unwrap();
     assert_eq!((header.kind, header.session), (FrameKind::HelloReply, 5));
-    assert_eq!((reply.min, reply.current), (1, 1));
+    assert_eq!((reply.min, reply.current), (VERSION_MIN, VERSION));
     assert!(is_closed(&mut core));
 }
 
 #[test]
 fn a_hello_of_session_0_is_answered_and_opens_nothing() {
     let mut core = core();
-    let (header, _) = answer(&mut core, NO_SESSION, &hello(1, 1, schema::hash(), &[])).unwrap();
+    let (header, _) = answer(&mut core, NO_SESSION, &hello(VERSION, VERSION, schema::hash(), &[])).unwrap();
     assert_eq!(header.session, NO_SESSION);
     assert!(is_closed(&mut core));
 }

@@ -8,7 +8,7 @@ use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use std::fs;
 use std::path::PathBuf;
-use zygote_deployment::dense::{Scheduled, Setting, verify};
+use zygote_deployment::dense::{Scheduled, Setting, verify_with_jumps};
 use zygote_stacking::fold;
 
 /// Places listed for each broken rule.
@@ -87,8 +87,9 @@ fn motion(arguments: &Arguments, bytes: &[u8]) -> Result<(), Failure> {
     };
     let scheduled = Scheduled::read(&plan, &value).with_context(|| name.to_string()).or_bad_input()?;
     let setting = setting(&arguments.motion, &scheduled).with_context(|| name.to_string()).or_bad_input()?;
-    let verdict =
-        verify(&plan, &scheduled.order, &setting).with_context(|| name.to_string()).or_bad_input()?;
+    let verdict = verify_with_jumps(&plan, &scheduled.order, &scheduled.springs, &setting)
+        .with_context(|| name.to_string())
+        .or_bad_input()?;
     for meeting in verdict.meetings.iter().take(SHOWN_COLLISIONS) {
         say(meeting);
     }

@@ -4,14 +4,16 @@ use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
 use crate::sim_rig::{self, SimTransport};
 use crate::{identity, input, interrupt};
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeSet;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_controller::{
-    Deployment, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport, deploy,
+    Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport,
+    deploy,
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_protocol::Millis;
@@ -40,6 +42,12 @@ pub(crate) struct Arguments {
     /// Leave the safe state of an earlier fault or stop: you have looked at the rig
     #[arg(long)]
     clear: bool,
+    /// Go on from where an earlier run of this schedule broke off
+    #[arg(long, value_name = "REPORT.json")]
+    resume: Option<PathBuf>,
+    /// Servos that were interrupted stand again where they started: you have put them there
+    #[arg(long, requires = "resume")]
+    interrupted_are_back: bool,
     /// Event log, one JSON object a line [default: beside plan or schedule, .events.jsonl]
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
@@ -68,16 +76,37 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plan = input::plan(&arguments.plan)?;
     let rig = input::rig(&arguments.rig)?;
     let schedule = input::run(&arguments.plan, &plan, &rig, arguments.schedule.as_deref())?;
+    let open = opened_before(arguments, &schedule)?;
     if let Some(device) = &arguments.target.port {
         let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
-        let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule)?;
+        let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule, &open)?;
         return judge(&report);
     }
-    let board = sim_rig::board(&rig, Some(&schedule), SIMULATED)?;
-    let (report, transport) = run_on(arguments, SimTransport::new(board), SIMULATED, &rig, &schedule)?;
+    let board = sim_rig::board(&rig, Some(&standing(&schedule, &open)), SIMULATED)?;
+    let (report, transport) = run_on(arguments, SimTransport::new(board), SIMULATED, &rig, &schedule, &open)?;
     let truth = true_angles(&transport, &schedule, arguments.json);
     judge(&report)?;
     truth
+}
+
+/// The hinges that need not move again.
+fn opened_before(arguments: &Arguments, schedule: &Schedule) -> Result<BTreeSet<usize>, Failure> {
+    let Some(path) = &arguments.resume else { return Ok(BTreeSet::new()) };
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
+    let earlier: EarlierRun = serde_json::from_slice(&bytes)
+        .with_context(|| format!("{name}: no report of a run"))
+        .or_bad_input()?;
+    earlier.open(schedule, arguments.interrupted_are_back).context(name).or_bad_input()
+}
+
+/// The schedule with hinges that are open already standing there.
+fn standing(schedule: &Schedule, open: &BTreeSet<usize>) -> Schedule {
+    let mut standing = schedule.clone();
+    for step in standing.steps.iter_mut().filter(|step| open.contains(&step.hinge)) {
+        step.from_opening_deg = step.opening_deg;
+    }
+    standing
 }
 
 /// Runs on a line and writes log and report; gives the line back.
@@ -87,6 +116,7 @@ fn run_on<T: Transport>(
     number: u32,
     rig: &Rig,
     schedule: &Schedule,
+    open: &BTreeSet<usize>,
 ) -> Result<(RunReport, T), Failure> {
     let interrupted = interrupt::flag()?;
     let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
@@ -97,10 +127,11 @@ fn run_on<T: Transport>(
         schedule,
         rig,
         run: number,
+        open,
         clear: arguments.clear,
         interrupted: &|| interrupted.load(Ordering::Relaxed),
     };
-    let bar = progress_bar(schedule.steps.len());
+    let bar = progress_bar(schedule.steps.len() - open.len());
     let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
     bar.finish_and_clear();
     let report = outcome.or_failed()?;

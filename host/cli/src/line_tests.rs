@@ -3,6 +3,7 @@
 
 use crate::sim_rig::{self, SimTransport};
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 use std::rc::Rc;
@@ -100,6 +101,7 @@ fn run(
         schedule,
         rig,
         run: 1,
+        open: &BTreeSet::new(),
         clear: false,
         interrupted: &|| interrupted(asked.replace(asked.get() + 1)),
     };
@@ -147,8 +149,14 @@ fn a_stopped_board_wants_a_person_before_the_next_run() {
     let (_, mut line) = run(line(&rig, &schedule, CLEAN, NEVER), &rig, &schedule, |asked| asked > 100);
     line.random = 1;
     let mut session = Session::connect(line, 10, Millis(5_000)).unwrap();
-    let deployment =
-        Deployment { schedule: &schedule, rig: &rig, run: 2, clear: false, interrupted: &|| false };
+    let deployment = Deployment {
+        schedule: &schedule,
+        rig: &rig,
+        run: 2,
+        open: &BTreeSet::new(),
+        clear: false,
+        interrupted: &|| false,
+    };
     let mut log = EventLog::new(io::sink());
     let refused = deploy(&mut session, &deployment, &mut log, &mut |_| {});
     assert!(matches!(refused, Err(DeployError::Safe { fault: Some(_) })), "{refused:?}");
@@ -249,8 +257,14 @@ fn the_log_tells_events_in_host_time_and_the_report_the_rate_of_the_clock() {
     let mut session = Session::connect(host, 9, Millis(5_000)).unwrap();
     let log = Rc::new(RefCell::new(Vec::new()));
     let mut event_log = EventLog::new(SharedSink(Rc::clone(&log)));
-    let deployment =
-        Deployment { schedule: &schedule, rig: &rig, run: 1, clear: false, interrupted: &|| false };
+    let deployment = Deployment {
+        schedule: &schedule,
+        rig: &rig,
+        run: 1,
+        clear: false,
+        open: &BTreeSet::new(),
+        interrupted: &|| false,
+    };
     let report = deploy(&mut session, &deployment, &mut event_log, &mut |_| {}).unwrap();
     let clock = report.clock.unwrap();
     assert!((clock.rate_ppm + 200.0).abs() < 2.0 && clock.residual_us < 100.0, "{clock:?}");

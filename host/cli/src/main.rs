@@ -3,6 +3,7 @@
 mod alternatives;
 mod assembly;
 mod check;
+mod checked_order;
 mod deploy;
 mod explain;
 mod export;
@@ -30,6 +31,7 @@ mod table;
 mod tolerance;
 mod torque;
 mod verb;
+mod weighing;
 
 use clap::Parser;
 use std::process::ExitCode;

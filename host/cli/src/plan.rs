@@ -1,12 +1,13 @@
 //! `zygote plan`: a model into a plan file.
 
 use crate::failure::{Failure, OrFail};
+use crate::input;
 use crate::output::{say, write_file};
 use crate::plan_choice;
 use anyhow::{Context, anyhow};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use zygote_deployment::motion::Plates;
+use zygote_deployment::motion::{Ground, Plates};
 use zygote_stacking::{
     Bridges, Figures, Model, Partition, Plan, PlanError, Quality, Report, Request, Resolution, fold, quality,
 };
@@ -59,6 +60,12 @@ pub(crate) struct Arguments {
     /// Look for a plan that opens without a collision, with seeds from --seed on
     #[arg(long, value_name = "PANELS", value_enum, conflicts_with_all = ["net", "like"])]
     free: Option<PlatesArgument>,
+    /// With --free, let nothing pass the plane that the stack lies on; the root is chosen to fit
+    #[arg(long, requires = "free")]
+    ground: bool,
+    /// With --ground, the rig whose gravity says where down is [default: against z, so the ground is a table]
+    #[arg(long, value_name = "RIG.toml", requires = "ground")]
+    rig: Option<PathBuf>,
     /// With --free, try at most so many plans
     #[arg(long, value_name = "N", default_value_t = 40, requires = "free", value_parser = clap::value_parser!(u64).range(1..))]
     tries: u64,
@@ -83,6 +90,14 @@ impl From<PlatesArgument> for Plates {
 }
 
 impl Arguments {
+    fn ground(&self) -> Result<Option<Ground>, Failure> {
+        if !self.ground {
+            return Ok(None);
+        }
+        let rig = self.rig.as_deref().map(input::rig).transpose()?;
+        Ok(Some(rig.map_or(Ground::TABLE, |rig| Ground::under(&rig.gravity))))
+    }
+
     fn bridges(&self) -> BridgesArgument {
         let default = if self.free.is_some() { BridgesArgument::Base } else { BridgesArgument::Most };
         self.bridges.unwrap_or(default)
@@ -154,8 +169,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(like) => like.plan(&arguments.model, &model, &request)?,
         None if arguments.net => plan_choice::with_net(&arguments.model, &model, &request)?,
         None if arguments.free.is_some() => {
-            let plates = arguments.free.map_or(Plates::Ideal, Plates::from);
-            plan_choice::that_opens_freely(&arguments.model, &model, &request, plates, arguments.tries)?
+            let free = plan_choice::Free {
+                plates: arguments.free.map_or(Plates::Ideal, Plates::from),
+                ground: arguments.ground()?,
+                tries: arguments.tries,
+            };
+            plan_choice::that_opens_freely(&arguments.model, &model, &request, free)?
         }
         None => (zygote_stacking::plan(&model, &request).map_err(refused(&arguments.model))?, Vec::new()),
     };

@@ -6,7 +6,7 @@ use crate::plan::refused;
 use anyhow::anyhow;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
-use zygote_deployment::motion::{FreePlan, FreePlanError, Plates, Scope, free_plan};
+use zygote_deployment::motion::{FreePlan, FreePlanError, Ground, Plates, Scope, free_plan};
 use zygote_stacking::{Counts, LikeError, Model, NetPlan, Plan, Request, plan_like, plan_with_net};
 
 /// A plan, and what to tell of the choice.
@@ -38,16 +38,27 @@ pub(crate) fn with_net(path: &Path, model: &Model, request: &Request) -> Result<
     Ok((plan, told))
 }
 
+/// How a plan is to open.
+#[derive(Clone, Copy)]
+pub(crate) struct Free {
+    /// What its motion is checked with.
+    pub(crate) plates: Plates,
+    /// What nothing may pass.
+    pub(crate) ground: Option<Ground>,
+    /// Most plans tried.
+    pub(crate) tries: u64,
+}
+
 /// A plan that opens without a collision.
 pub(crate) fn that_opens_freely(
     path: &Path,
     model: &Model,
     request: &Request,
-    plates: Plates,
-    tries: u64,
+    free: Free,
 ) -> Result<Choice, Failure> {
+    let Free { plates, ground, tries } = free;
     let bar = progress(tries);
-    let made = free_plan(model, request, plates, tries, &mut |tried, blocked| {
+    let made = free_plan(model, request, plates, ground, tries, &mut |tried, blocked| {
         bar.set_position(tried);
         if let Some(blocked) = blocked {
             bar.set_message(format!("at best {blocked} hinges blocked"));
@@ -56,12 +67,17 @@ pub(crate) fn that_opens_freely(
     bar.finish_and_clear();
     let FreePlan { plan, found, tried } = made.map_err(|error| match error {
         FreePlanError::Plan(error) => refused(path)(error),
+        FreePlanError::NoRoot { .. } => Failure::Failed(anyhow!(
+            "{}: {error}; try a gravity along x or y (--rig), or leave out --ground",
+            path.display()
+        )),
         other => Failure::BadInput(anyhow!("{}: {other}", path.display())),
     })?;
     let panels = match plates {
         Plates::Ideal => "panels without thickness",
         Plates::Thick => "panels as thick as the plan's",
     };
+    let panels = if ground.is_some() { format!("{panels}, above the ground") } else { panels.to_owned() };
     if found.blocked > 0 {
         return Err(Failure::Failed(anyhow!(
             "{}: of {tries} plans none opens freely with {panels}; the best one has {} hinges that something blocks (seed \

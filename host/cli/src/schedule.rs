@@ -1,22 +1,17 @@
 //! `zygote schedule`: a plan and a rig into a schedule, written into the plan or beside it.
 
+use crate::checked_order::{MOST_CHECKED, MotionArguments, Wanted, hold_waits, waits_of};
 use crate::failure::{Failure, OrFail};
 use crate::input;
 use crate::output::{say, write_file};
-use crate::plan::PlatesArgument;
-use anyhow::{Context, anyhow};
+use crate::weighing::{Scale, WeighingArguments};
+use anyhow::Context;
 use clap::Args;
-use indicatif::ProgressBar;
 use std::path::PathBuf;
-use std::time::Duration;
-use zygote_deployment::motion::{Certificate, Effort, Ground, Options, Plates, check, search, waits_for};
-use zygote_deployment::{Kind, Limits, Millis, Order, Schedule, Tree};
+use zygote_deployment::motion::Certificate;
+use zygote_deployment::statics::Loads;
+use zygote_deployment::{Kind, Limits, Millis, Order, Rig, Schedule, Tree};
 use zygote_stacking::{Plan, fold};
-
-/// More panels than this are scheduled only unchecked: every step of a search looks at all of them.
-const MOST_CHECKED: usize = 20_000;
-/// Collisions listed.
-const SHOWN_COLLISIONS: usize = 20;
 
 /// Arguments of `zygote schedule`.
 #[derive(Args)]
@@ -29,6 +24,11 @@ pub(crate) struct Arguments {
     rig: PathBuf,
     #[command(flatten)]
     motion: MotionArguments,
+    #[command(flatten)]
+    weighing: WeighingArguments,
+    /// Let hinge H start only when A, and B, are open
+    #[arg(long, value_name = "H:A[,B]", value_parser = waits_of)]
+    after: Vec<Waits>,
     /// One hinge after the other, in the order that was checked
     #[arg(long, conflicts_with = "parallel")]
     sequential: bool,
@@ -43,22 +43,8 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// What is checked of the motion.
-#[derive(Args)]
-struct MotionArguments {
-    /// What the motion is checked with
-    #[arg(long, value_enum, default_value_t = PlatesArgument::Ideal)]
-    panels: PlatesArgument,
-    /// A table under the zygote that nothing may pass
-    #[arg(long)]
-    ground: bool,
-    /// Schedule the least bad order where none without a collision is found; the collisions are listed and stored
-    #[arg(long)]
-    allow_collisions: bool,
-    /// Look for no collision: hinges open from the root outwards, one at a time unless --parallel is given
-    #[arg(long, conflicts_with_all = ["panels", "ground", "allow_collisions"])]
-    unchecked: bool,
-}
+/// Of each pair the first hinge waits for the second; a name of its own, as clap takes a list for several arguments.
+type Waits = Vec<(usize, usize)>;
 
 fn at_least_1(text: &str) -> Result<usize, String> {
     text.parse()
@@ -79,14 +65,39 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             .with_context(|| format!("{name}: no schedule on this rig"))
             .or_bad_input()
     };
-    let by_tree = Order::of_tree(&Tree::new(&plan).context("no order").or_bad_input()?);
+    let tree = Tree::new(&plan).context("no order").or_bad_input()?;
+    let by_tree = Order::of_tree(&tree);
+    let waits = arguments.after.concat();
+    hold_waits(&arguments.plan, &plan, &waits)?;
+    let scale = scale(arguments, &plan, &rig);
     let schedule = if arguments.motion.unchecked {
-        schedule_of(&by_tree, &limits)?
+        let order = by_tree
+            .with_waits(&waits)
+            .with_context(|| format!("{name}: --after, against the order of the tree"))
+            .or_bad_input()?;
+        let springs = springs(&rig, &tree)?;
+        // Whatever is near a spring has to stand still, and nothing has looked what is near.
+        let order = if parallel == Some(1) { order } else { order.with_alone(&|hinge| springs[hinge]) };
+        schedule_of(&order, &limits)?
     } else {
         // What the rig can't drive is told before a long search.
         schedule_of(&by_tree, &Limits { samples: 0, ..limits })?;
-        let (order, certificate) = checked_order(arguments, &plan)?;
+        let (order, certificate) = Wanted {
+            path: &arguments.plan,
+            plan: &plan,
+            rig: &rig,
+            rig_path: &arguments.rig,
+            motion: &arguments.motion,
+            sequential: arguments.sequential,
+            waits: &waits,
+            scale: scale.as_ref(),
+        }
+        .order()?;
         schedule_of(&order, &limits)?.with_certificate(certificate)
+    };
+    let schedule = match &scale {
+        Some(scale) => weighed(arguments, scale, schedule)?,
+        None => schedule,
     };
     schedule.verify(&plan, &rig).context("a fault of this program: its own schedule is wrong").or_failed()?;
     let written = if let Some(output) = &arguments.output {
@@ -101,7 +112,33 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(certificate) = &schedule.certificate {
         say(format_args!("motion: {}", told(certificate)));
     }
+    if rig.panel.is_none() {
+        say("loads: not weighed: the rig doesn't say what panels weigh (panel.mass or panel.density)");
+    } else if schedule.loads.is_none() {
+        say(format_args!("loads: not weighed: more than {MOST_CHECKED} panels, see `zygote torque`"));
+    }
     Ok(())
+}
+
+/// What weighs the plan, where the rig says what panels weigh.
+fn scale<'a>(arguments: &'a Arguments, plan: &'a Plan, rig: &'a Rig) -> Option<Scale<'a>> {
+    let weighs = rig.panel.is_some() && plan.panels() <= MOST_CHECKED;
+    let support = arguments.weighing.support();
+    weighs.then_some(Scale { path: &arguments.plan, plan, rig, support })
+}
+
+/// The schedule with its loads, if they are allowed.
+fn weighed(arguments: &Arguments, scale: &Scale, schedule: Schedule) -> Result<Schedule, Failure> {
+    let statics = scale.weigh(&schedule.hinges())?;
+    scale.tell(&statics)?;
+    arguments.weighing.hold(scale.path, scale.plan, &statics)?;
+    Ok(schedule.with_loads(Loads::of(&statics, scale.rig)))
+}
+
+/// Of every hinge whether a spring opens it.
+fn springs(rig: &Rig, tree: &Tree) -> Result<Vec<bool>, Failure> {
+    let fittings = rig.fit_tree(tree).or_bad_input()?;
+    Ok(fittings.iter().map(|fitting| fitting.drive.kind() == Kind::Spring).collect())
 }
 
 /// What was checked, in one line.
@@ -115,59 +152,6 @@ fn told(certificate: &Certificate) -> String {
     } else {
         format!("{} collisions with {panels}, allowed", collisions.len())
     }
-}
-
-/// An order without a collision, with what must wait for what, and what was checked.
-fn checked_order(arguments: &Arguments, plan: &Plan) -> Result<(Order, Certificate), Failure> {
-    let name = arguments.plan.display();
-    if plan.panels() > MOST_CHECKED {
-        return Err(Failure::BadInput(anyhow!(
-            "{name}: motion is checked for up to {MOST_CHECKED} panels, found {}; --unchecked schedules it without",
-            plan.panels()
-        )));
-    }
-    let plates = Plates::from(arguments.motion.panels);
-    let thickness = plates.thickness(plan);
-    let ground = arguments.motion.ground.then_some(Ground::TABLE);
-    let bar = progress();
-    let found = search(plan, thickness, ground, &Effort::default(), &mut |attempts, blocked| {
-        let best = blocked.map_or(String::new(), |blocked| format!(", at best {blocked} hinges blocked"));
-        bar.set_message(format!("{attempts} orders tried{best}"));
-    });
-    bar.finish_and_clear();
-    let found = found.with_context(|| format!("{name}: no motion")).or_bad_input()?;
-    let report = check(plan, &found.hinges, thickness, &Options { ground })
-        .with_context(|| format!("{name}: no motion"))
-        .or_bad_input()?;
-    for (step, collision) in report.collisions.iter().take(SHOWN_COLLISIONS) {
-        say(format_args!("step {step}: {collision}"));
-    }
-    let meetings = report.collisions.len();
-    if meetings > SHOWN_COLLISIONS {
-        say(format_args!("... and {} more", meetings - SHOWN_COLLISIONS));
-    }
-    if meetings > 0 && !arguments.motion.allow_collisions {
-        return Err(Failure::Failed(anyhow!(
-            "{name}: of {} orders none is free; the best one has {meetings} collisions, listed above; make a plan that opens \
-             freely with `zygote plan --free`, or schedule this one with --allow-collisions",
-            found.attempts
-        )));
-    }
-    let order = if arguments.sequential || meetings > 0 {
-        Order::one_by_one(found.hinges)
-    } else {
-        waits_for(plan, &found.hinges, thickness)
-            .with_context(|| format!("{name}: no motion"))
-            .or_bad_input()?
-    };
-    Ok((order, Certificate::of(&report, thickness, plates == Plates::Ideal, ground)))
-}
-
-/// What the search is at, on the error output.
-fn progress() -> ProgressBar {
-    let bar = ProgressBar::new_spinner();
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }
 
 /// What a schedule amounts to, in one line.

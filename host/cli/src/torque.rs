@@ -3,8 +3,8 @@
 use crate::failure::{Failure, OrFail};
 use crate::input;
 use crate::output::{say, write_file};
-use anyhow::{Context, anyhow};
-use clap::{Args, ValueEnum};
+use crate::weighing::{Scale, WeighingArguments, millis, tipping};
+use clap::Args;
 use serde_json::json;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ const SHOWN: usize = 10;
     after_help = "Hinges open one by one, slowly, in the order of the plan's schedule, or without one in that of the tree. \
     A hinge turns once and then holds what hangs on it; either way its load is the greatest torque over its rating, at the \
     worst angle of every turn. A positive torque would close the hinge, a negative one would open it further. Exit code 1 if \
-    a hinge is overloaded."
+    a hinge is overloaded or the whole tips."
 )]
 pub(crate) struct Arguments {
     /// The plan
@@ -33,27 +33,14 @@ pub(crate) struct Arguments {
     /// A schedule beside the plan
     #[arg(long, value_name = "SCHEDULE.json")]
     schedule: Option<PathBuf>,
-    /// What the whole stands on
-    #[arg(long, value_enum, default_value_t = Stand::Touching)]
-    support: Stand,
+    #[command(flatten)]
+    weighing: WeighingArguments,
     /// Write a table of all steps here
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Exit code 0 even if a hinge is overloaded
-    #[arg(long)]
-    allow_overload: bool,
-}
-
-/// What the whole stands on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Stand {
-    /// All that touches the plane that the stack lies on
-    Touching,
-    /// The root alone
-    Root,
 }
 
 /// Weighs, prints the worst, writes the table.
@@ -68,13 +55,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         (Order::of_tree(&Tree::new(&plan).or_bad_input()?).hinges, "the tree")
     };
-    let support = match arguments.support {
-        Stand::Touching => Support::Touching,
-        Stand::Root => Support::Root,
-    };
-    let statics = Statics::of(&plan, &rig, &order, support)
-        .with_context(|| format!("{name}: its hinges can't be weighed"))
-        .or_bad_input()?;
+    let support = arguments.weighing.support();
+    let statics = Scale { path: &arguments.plan, plan: &plan, rig: &rig, support }.weigh(&order)?;
     if let Some(path) = &arguments.output {
         write_file(path, csv(&plan, &rig, &statics)?.as_bytes())?;
     }
@@ -90,20 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         ));
         summary(&statics, &overloads);
     }
-    if overloads.is_empty() || arguments.allow_overload {
-        return Ok(());
-    }
-    let hinges: std::collections::BTreeSet<_> = overloads.iter().map(|load| load.hinge).collect();
-    Err(Failure::Failed(anyhow!(
-        "{name}: {} of {} hinges are overloaded; let other hinges open first, choose stronger or lighter parts, or give \
-         --allow-overload",
-        hinges.len(),
-        plan.hinges.len()
-    )))
-}
-
-fn millis(torque: zygote_deployment::NewtonMetres) -> f64 {
-    torque.0 * 1e3
+    arguments.weighing.hold(&arguments.plan, &plan, &statics)
 }
 
 fn summary(statics: &Statics, overloads: &[Load]) {
@@ -144,35 +113,6 @@ fn summary(statics: &Statics, overloads: &[Load]) {
             millis(load.rating),
             load.factor()
         ));
-    }
-}
-
-/// Whether the whole stands, in words.
-fn tipping(statics: &Statics) -> String {
-    let tipping = &statics.tipping;
-    let on = match tipping.support {
-        Support::Touching => "what touches the ground",
-        Support::Root => "the root",
-    };
-    let hinge = |step: usize| statics.turning.get(step).map_or(0, |load| load.hinge);
-    match (tipping.first(), tipping.least()) {
-        (Some(step), _) => match tipping.margins.get(step).copied().flatten() {
-            Some(margin) => format!(
-                "on {on} it tips in step {step} (hinge {}): the centre of mass gets {:.1} mm outside",
-                hinge(step),
-                -margin.0
-            ),
-            None => format!(
-                "in step {step} (hinge {}) nothing that stands still touches the ground; for a stand under the root: --support root",
-                hinge(step)
-            ),
-        },
-        (None, Some((step, margin))) => format!(
-            "on {on} it stands in every step; the centre of mass stays {:.1} mm within (step {step}, hinge {})",
-            margin.0,
-            hinge(step)
-        ),
-        (None, None) => "nothing moves".to_owned(),
     }
 }
 

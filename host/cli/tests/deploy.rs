@@ -294,3 +294,81 @@ fn a_way_back_that_was_changed_is_refused() {
         run.errors
     );
 }
+
+/// Opens servos and heaters until hinge 6, whose heater is too weak, ends the run.
+fn broken_off(place: &Scratch, kind: &str) -> String {
+    let rig = std::fs::read_to_string(model("rigs/mixed.toml")).unwrap();
+    let rig = format!("{rig}\n[[hinge]]\nhinge = 6\nkind = \"{kind}\"\n");
+    place.write("good.toml", &rig);
+    place.write(
+        "weak.toml",
+        &format!("{rig}\n[[sim.hinge]]\nhinge = 6\nsma = {{ heater_resistance = \"400 ohm\" }}\n"),
+    );
+    let run = deploy(place, "i14.txt", 2, "weak.toml", 1);
+    assert_eq!(run.code, 1, "{}", run.output);
+    assert!(run.output.contains("--resume"), "{}", run.output);
+    place.read("plan.report.json")
+}
+
+#[test]
+fn a_run_that_broke_off_goes_on_from_its_report() {
+    let place = Scratch::new("resume");
+    let report: Value = serde_json::from_str(&broken_off(&place, "sma")).unwrap();
+    let opened = |report: &Value| {
+        report["hinges"].as_array().unwrap().iter().filter(|hinge| hinge["outcome"] == "opened").count()
+    };
+    let before = opened(&report);
+    assert!(0 < before && before < 13, "{before}");
+    place.write("first.json", &report.to_string());
+    let run = place.zygote(&["deploy", "plan.fold", "--rig", "good.toml", "--sim", "--resume", "first.json"]);
+    assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    assert!(run.output.contains("deployed: 13 of 13 hinges are open"), "{}", run.output);
+    assert!(run.output.contains("true angles: 13 of 13 hinges within 1°"), "{}", run.output);
+    let report: Value = serde_json::from_str(&place.read("plan.report.json")).unwrap();
+    let moved =
+        report["hinges"].as_array().unwrap().iter().filter(|hinge| hinge["opened_s"].is_number()).count();
+    assert_eq!((opened(&report), moved), (13, 13 - before));
+    // And that is all there is to do.
+    let run =
+        place.zygote(&["deploy", "plan.fold", "--rig", "good.toml", "--sim", "--resume", "plan.report.json"]);
+    assert_eq!(run.code, 2);
+    assert!(run.errors.contains("nothing is left to do"), "{}", run.errors);
+}
+
+#[test]
+fn a_report_of_another_run_is_refused() {
+    let place = Scratch::new("resume_other");
+    let report = broken_off(&place, "sma");
+    let resume = |text: &str| {
+        place.write("first.json", text);
+        let run =
+            place.zygote(&["deploy", "plan.fold", "--rig", "good.toml", "--sim", "--resume", "first.json"]);
+        assert_eq!(run.code, 2, "{}", run.output);
+        assert!(run.errors.contains("first.json"), "{}", run.errors);
+        run.errors
+    };
+    let mut other: Value = serde_json::from_str(&report).unwrap();
+    other["rig"] = "another".into();
+    assert!(resume(&other.to_string()).contains("found `another`"));
+    let mut fewer: Value = serde_json::from_str(&report).unwrap();
+    fewer["hinges"].as_array_mut().unwrap().pop();
+    assert!(resume(&fewer.to_string()).contains("expected 13 hinges, found 12"));
+    assert!(resume("{}").contains("no report of a run"));
+}
+
+#[test]
+fn servos_that_were_interrupted_must_be_put_back_by_hand() {
+    let place = Scratch::new("resume_servo");
+    let mut report: Value = serde_json::from_str(&broken_off(&place, "sma")).unwrap();
+    let servo =
+        report["hinges"].as_array_mut().unwrap().iter_mut().find(|hinge| hinge["kind"] == "servo").unwrap();
+    servo["outcome"] = "interrupted".into();
+    let hinge = servo["hinge"].to_string();
+    place.write("first.json", &report.to_string());
+    let resume = ["deploy", "plan.fold", "--rig", "good.toml", "--sim", "--resume", "first.json"];
+    let run = place.zygote(&resume);
+    assert_eq!(run.code, 2);
+    assert!(run.errors.contains(&format!("the servos of hinges {hinge} were interrupted")), "{}", run.errors);
+    let run = place.zygote(&[&resume[..], &["--interrupted-are-back"]].concat());
+    assert_eq!(run.code, 0, "{}", run.errors);
+}

@@ -84,6 +84,178 @@ fn a_schedule_is_written_into_the_plan_and_verifies_there() {
     assert_eq!(folder.read("plan.fold"), before);
 }
 
+/// The hinge of every step, and the hinges that it waits for.
+fn steps(folder: &Folder, name: &str) -> Vec<(usize, Vec<usize>)> {
+    let schedule = Schedule::from_text(&folder.read(name)).expect("a good schedule");
+    let hinge = |step: usize| schedule.steps[step].hinge;
+    schedule
+        .steps
+        .iter()
+        .map(|step| (step.hinge, step.after.iter().map(|other| hinge(*other)).collect()))
+        .collect()
+}
+
+/// Whether a hinge starts only when another is open, whatever their times.
+fn waits(steps: &[(usize, Vec<usize>)], hinge: usize, other: usize) -> bool {
+    let (_, direct) = steps.iter().find(|(of, _)| *of == hinge).expect("a step");
+    direct.contains(&other) || direct.iter().any(|before| waits(steps, *before, other))
+}
+
+#[test]
+fn a_hinge_waits_for_others_if_asked_to() {
+    let folder = Folder::new("after");
+    let schedule = |after: &[String], more: &[&str]| {
+        let mut arguments = vec!["schedule", "plan.fold", "--rig", "rig.toml", "-o", "schedule.json"];
+        for after in after {
+            arguments.extend(["--after", after]);
+        }
+        arguments.extend(more);
+        folder.zygote(&arguments)
+    };
+    assert!(schedule(&[], &[]).status.success());
+    let free = steps(&folder, "schedule.json");
+    let pairs = (0..13).flat_map(|a| (0..13).map(move |b| (a, b)));
+    let loose: Vec<_> =
+        pairs.filter(|(a, b)| a != b && !waits(&free, *a, *b) && !waits(&free, *b, *a)).collect();
+    let (first, then) = *loose.first().expect("motions at once");
+    // Either way about, among the other way of what the search found, and one by one.
+    let (last, before) =
+        free.iter().find_map(|(hinge, after)| Some((*hinge, *after.first()?))).expect("waits");
+    for (hinge, other) in [(first, then), (then, first), (before, last)] {
+        for more in [&[][..], &["--sequential"]] {
+            let output = schedule(&[format!("{hinge}:{other}")], more);
+            assert!(output.status.success(), "{hinge}:{other} {output:?}");
+            assert!(waits(&steps(&folder, "schedule.json"), hinge, other), "{hinge}:{other}");
+        }
+    }
+    // In the order of the tree too.
+    let tree = ["--unchecked", "--parallel", "4"];
+    assert!(schedule(&[], &tree).status.success());
+    let made = steps(&folder, "schedule.json");
+    let loose = (0..13).find(|hinge| *hinge != 0 && !waits(&made, *hinge, 0) && !waits(&made, 0, *hinge));
+    let loose = loose.expect("motions at once");
+    for (hinge, other) in [(loose, 0), (0, loose)] {
+        assert!(schedule(&[format!("{hinge}:{other}")], &tree).status.success());
+        assert!(waits(&steps(&folder, "schedule.json"), hinge, other), "{hinge}:{other}");
+    }
+}
+
+#[test]
+fn waits_that_no_order_keeps_are_refused_with_their_hinges() {
+    let folder = Folder::new("after-refused");
+    let refused = |after: &[&str], more: &[&str]| {
+        let mut arguments = vec!["schedule", "plan.fold", "--rig", "rig.toml"];
+        for after in after {
+            arguments.extend(["--after", after]);
+        }
+        arguments.extend(more);
+        folder.refused(&arguments)
+    };
+    let said = refused(&["5:3", "3:4,7", "7:5"], &[]);
+    assert!(said.contains("--after") && said.contains("in a circle: 5 for 3 for 7 for 5"), "{said}");
+    let said = refused(&["13:3"], &[]);
+    assert!(
+        said.contains("hinge 13 is to wait or to be waited for, expected one of the plan's 13"),
+        "{said}"
+    );
+    for text in ["5", "5:", "5:x", "5:3,", ":3", "5.0:2"] {
+        let said = refused(&[text], &[]);
+        assert!(said.contains("as in 5:3 or 5:3,4"), "{said}");
+    }
+    // The way back from the tips is no order of the tree, and none that is free.
+    assert!(
+        folder
+            .zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "--unchecked", "-o", "s.json"])
+            .status
+            .success()
+    );
+    let tree = steps(&folder, "s.json");
+    let back: Vec<_> = tree.windows(2).map(|pair| format!("{}:{}", pair[0].0, pair[1].0)).collect();
+    let back: Vec<&str> = back.iter().map(String::as_str).collect();
+    let said = refused(&back, &["--unchecked"]);
+    assert!(said.contains("against the order of the tree") && said.contains("in a circle: "), "{said}");
+    let said = refused(&back, &[]);
+    assert!(said.contains("the order that is free needs the opposite"), "{said}");
+}
+
+#[test]
+fn an_unchecked_spring_moves_alone() {
+    let folder = Folder::new("springs");
+    let springs = [2, 7];
+    let entries = springs.map(|hinge| format!("[[hinge]]\nhinge = {hinge}\nkind = \"spring\"\n")).concat();
+    folder.write("springs.toml", &(RIG.replace("heaters = 16", "heaters = 16\nsprings = 2") + &entries));
+    let command =
+        ["schedule", "plan.fold", "--rig", "springs.toml", "--unchecked", "--parallel", "3", "-o", "s.json"];
+    assert!(folder.zygote(&command).status.success());
+    let steps = steps(&folder, "s.json");
+    let mut at_once = 0;
+    for hinge in 0..13 {
+        for other in (0..13).filter(|other| *other != hinge) {
+            let parted = waits(&steps, hinge, other) || waits(&steps, other, hinge);
+            assert!(parted || !springs.contains(&hinge), "hinges {hinge} and {other}");
+            at_once += usize::from(!parted);
+        }
+    }
+    assert!(at_once > 0, "others move at once");
+}
+
+#[test]
+fn a_rig_that_says_nothing_of_masses_is_not_weighed_and_that_is_said() {
+    let folder = Folder::new("weightless");
+    let output = folder.zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "-o", "s.json"]);
+    assert!(output.status.success());
+    let said = String::from_utf8(output.stdout).expect("text");
+    assert!(said.contains("\nloads: not weighed: the rig doesn't say what panels weigh"), "{said}");
+    assert!(!folder.read("s.json").contains("loads"));
+}
+
+#[test]
+fn the_ground_is_where_the_rig_says_and_the_advice_names_it() {
+    let folder = Folder::new("ground");
+    for (gravity, advice) in [
+        ("", "`zygote plan --free thick --ground`"),
+        ("[gravity]\ndirection = [0, 0, 1]\n", "`zygote plan --free thick --ground --rig down.toml`"),
+    ] {
+        folder.write("down.toml", &format!("{RIG}{gravity}"));
+        let command = ["schedule", "plan.fold", "--rig", "down.toml", "--panels", "thick", "--ground"];
+        let output = folder.zygote(&command);
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(said.contains(advice), "{said}");
+        let told = String::from_utf8(output.stdout).expect("text");
+        assert!(told.contains("the ground"), "{told}");
+    }
+    folder.write("down.toml", &format!("{RIG}[gravity]\ndirection = [1, 0, 0]\n"));
+    let free = [
+        "plan",
+        "bar.txt",
+        "--piles",
+        "2",
+        "--free",
+        "ideal",
+        "--ground",
+        "--rig",
+        "down.toml",
+        "-o",
+        "free.fold",
+    ];
+    let output = folder.zygote(&free);
+    assert!(output.status.success(), "{output:?}");
+    let output = folder.zygote(&["schedule", "free.fold", "--rig", "down.toml", "--ground"]);
+    assert!(output.status.success(), "{output:?}");
+    assert!(folder.zygote(&["check", "free.fold", "--motion"]).status.success());
+    let plan = fold::read(folder.read("free.fold").as_bytes()).expect("a plan");
+    let schedule = Schedule::from_json(plan.schedule.as_ref().expect("a schedule")).expect("a good schedule");
+    assert_eq!(schedule.certificate.expect("checked").ground, Some([-1.0, 0.0, 0.0]));
+    // On a table no closed shape opens: its lowest panel has the shape below it.
+    let table = ["plan", "bar.txt", "--piles", "2", "--free", "ideal", "--ground", "-o", "table.fold"];
+    let output = folder.zygote(&table);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert!(said.contains("of 40 plans none has a panel that could stay fixed on the ground"), "{said}");
+    assert!(folder.refused(&["plan", "bar.txt", "--ground", "-o", "x.fold"]).contains("--free"));
+}
+
 #[test]
 fn a_schedule_beside_the_plan_leaves_the_plan_alone() {
     let folder = Folder::new("beside");

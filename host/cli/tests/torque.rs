@@ -25,7 +25,7 @@ fn number(text: &str, line: usize, column: usize) -> f64 {
 #[test]
 fn overloads_are_listed_and_end_with_exit_code_1_unless_allowed() {
     let place = planned("torque_overload", "100 g");
-    let command = ["torque", "plan.fold", "--rig", "rig.toml"];
+    let command = ["torque", "plan.fold", "--rig", "rig.toml", "--allow-tipping"];
     let run = place.zygote(&command);
     assert_eq!(run.code, 1, "{}", run.output);
     assert!(run.errors.contains("hinges are overloaded"), "{}", run.errors);
@@ -41,8 +41,17 @@ fn overloads_are_listed_and_end_with_exit_code_1_unless_allowed() {
 #[test]
 fn torque_grows_with_the_mass_in_table_and_json_alike() {
     let (one, two) = (planned("torque_one", "10 g"), planned("torque_two", "20 g"));
-    let command =
-        ["torque", "plan.fold", "--rig", "rig.toml", "--json", "-o", "loads.csv", "--allow-overload"];
+    let command = [
+        "torque",
+        "plan.fold",
+        "--rig",
+        "rig.toml",
+        "--json",
+        "-o",
+        "loads.csv",
+        "--allow-overload",
+        "--allow-tipping",
+    ];
     let [first, second] = [&one, &two].map(|place| {
         let run = place.zygote(&command);
         assert_eq!(run.code, 0, "{}", run.errors);
@@ -65,8 +74,10 @@ fn torque_grows_with_the_mass_in_table_and_json_alike() {
 #[test]
 fn the_order_is_that_of_the_schedule_where_there_is_one() {
     let place = planned("torque_schedule", "1 g");
-    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml"]).code, 0);
-    let run = place.zygote(&["torque", "plan.fold", "--rig", "rig.toml", "--support", "root"]);
+    let schedule = ["schedule", "plan.fold", "--rig", "rig.toml", "--allow-tipping"];
+    assert_eq!(place.zygote(&schedule).code, 0);
+    let root = ["torque", "plan.fold", "--rig", "rig.toml", "--support", "root", "--allow-tipping"];
+    let run = place.zygote(&root);
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(
         run.output.contains("in the order of its schedule, but one by one, panels of 1 g"),
@@ -93,6 +104,80 @@ fn a_rig_that_does_not_say_what_panels_weigh_is_refused() {
 }
 
 #[test]
+fn what_tips_ends_with_exit_code_1_unless_allowed() {
+    let place = planned("torque_tipping", "1 g");
+    for verb in ["torque", "schedule"] {
+        let command = [verb, "plan.fold", "--rig", "rig.toml"];
+        let run = place.zygote(&command);
+        assert_eq!(run.code, 1, "{}", run.output);
+        assert!(
+            run.errors.contains("plan.fold: it tips; ") && !run.errors.contains("overloaded"),
+            "{}",
+            run.errors
+        );
+        assert!(run.output.contains("tipping: "), "{}", run.output);
+        let allowed = place.zygote(&[&command[..], &["--allow-tipping"]].concat());
+        assert_eq!(allowed.code, 0, "{}", allowed.errors);
+        assert!(allowed.output.contains("tipping: "), "{}", allowed.output);
+    }
+}
+
+#[test]
+fn a_schedule_refuses_overloads_and_keeps_what_was_weighed() {
+    let place = planned("schedule_overload", "100 g");
+    let command = ["schedule", "plan.fold", "--rig", "rig.toml", "-o", "schedule.json", "--allow-tipping"];
+    let run = place.zygote(&command);
+    assert_eq!(run.code, 1, "{}", run.output);
+    assert!(run.errors.contains("hinges are overloaded; choose another root"), "{}", run.errors);
+    assert_eq!(
+        run.output.lines().filter(|line| line.starts_with("overload: hinge ")).count(),
+        5,
+        "{}",
+        run.output
+    );
+    assert!(run.output.contains("in the shape itself, whatever the order"), "{}", run.output);
+    assert_eq!(place.files(), ["plan.fold", "rig.toml"], "nothing is written");
+    let run = place.zygote(&[&command[..], &["--allow-overload"]].concat());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let json: serde_json::Value = serde_json::from_str(&place.read("schedule.json")).unwrap();
+    let loads = &json["loads"];
+    assert_eq!((&loads["panel_mass_g"], &loads["support"]), (&100.0.into(), &"touching".into()));
+    let torque = ["torque", "plan.fold", "--rig", "rig.toml", "--schedule", "schedule.json", "--json"];
+    let told = place.zygote(&torque);
+    assert_eq!(told.code, 1, "{}", told.errors);
+    let told: serde_json::Value = serde_json::from_str(&told.output).unwrap();
+    let worst = told["worst"][0]["factor"].as_f64().unwrap();
+    assert!((loads["worst_factor"].as_f64().unwrap() - worst).abs() < 1e-9);
+    let mut overloaded: Vec<_> =
+        told["overloads"].as_array().unwrap().iter().map(|load| load["hinge"].as_u64().unwrap()).collect();
+    overloaded.sort_unstable();
+    overloaded.dedup();
+    assert_eq!(loads["overloaded"], serde_json::json!(overloaded));
+    // Heavier panels on the rig are another weighing.
+    place.write("rig.toml", &format!("{RIG}[panel]\nmass = \"101 g\"\n"));
+    let run = place.zygote(&torque);
+    assert_eq!(run.code, 2, "{}", run.output);
+    assert!(run.errors.contains("loads.panel_mass_g should be 101, found 100"), "{}", run.errors);
+}
+
+#[test]
+fn an_order_that_spares_the_hinges_is_taken_where_there_is_one() {
+    let place = Scratch::new("schedule_lighter");
+    let plan = ["plan", &model("l14.txt"), "--piles", "2", "--bridges", "base", "-o", "plan.fold"];
+    assert_eq!(place.zygote(&plan).code, 0);
+    place.write("rig.toml", &format!("{RIG}[panel]\nmass = \"5 g\"\n"));
+    let run = place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "--allow-tipping"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(
+        run.output.contains("order: 1 hinges overloaded as first found, 0 in the lightest of "),
+        "{}",
+        run.output
+    );
+    let check = place.zygote(&["check", "plan.fold", "--motion"]);
+    assert_eq!(check.code, 0, "{}", check.errors);
+}
+
+#[test]
 fn a_schedule_is_drawn_as_a_chart_and_printed_as_a_table() {
     let place = planned("gantt", "1 g");
     let chart = ["picture", "plan.fold", "--view", "gantt", "-o", "gantt.svg"];
@@ -101,7 +186,8 @@ fn a_schedule_is_drawn_as_a_chart_and_printed_as_a_table() {
         assert_eq!(run.code, 2);
         assert!(run.errors.contains("has no schedule"), "{}", run.errors);
     }
-    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "--parallel", "3"]).code, 0);
+    let schedule = ["schedule", "plan.fold", "--rig", "rig.toml", "--parallel", "3", "--allow-tipping"];
+    assert_eq!(place.zygote(&schedule).code, 0);
     let run = place.zygote(&chart);
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(place.read("gantt.svg").contains("limit 2 A"));
@@ -130,7 +216,8 @@ fn people_read_every_hinge_once_in_the_order_of_the_tree_or_of_the_schedule() {
     let mut once = hinges(&table, 1);
     once.sort_by(f64::total_cmp);
     assert_eq!(once, (0..13).map(f64::from).collect::<Vec<_>>());
-    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "--parallel", "4"]).code, 0);
+    let schedule = ["schedule", "plan.fold", "--rig", "rig.toml", "--parallel", "4", "--allow-tipping"];
+    assert_eq!(place.zygote(&schedule).code, 0);
     assert_eq!(place.zygote(&["assembly", "plan.fold", "-o", "hands.csv"]).code, 0);
     let (by_hand, steps) = (place.read("hands.csv"), place.zygote(&["table", "plan.fold"]).output);
     assert_eq!(hinges(&by_hand, 1), hinges(&steps, 1));
@@ -158,7 +245,8 @@ fn servos_fold_a_shape_up_again_and_other_hinges_are_refused_by_name() {
     assert_eq!(there["steps"][0]["hinge"], back["steps"][12]["hinge"]);
     assert_eq!(there["steps"][0]["motion"]["from_us"], back["steps"][12]["motion"]["to_us"]);
     assert_eq!(back["steps"][1]["after"], serde_json::json!([0]));
-    assert_eq!(place.zygote(&["schedule", "plan.fold", "--rig", "rig.toml", "-o", "sma.json"]).code, 0);
+    let sma = ["schedule", "plan.fold", "--rig", "rig.toml", "--allow-tipping", "-o", "sma.json"];
+    assert_eq!(place.zygote(&sma).code, 0);
     let run = fold("rig.toml", "sma.json");
     assert_eq!(run.code, 2, "{}", run.output);
     assert!(run.errors.contains("is a sma hinge, which doesn't close by itself"), "{}", run.errors);

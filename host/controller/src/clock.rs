@@ -9,7 +9,7 @@
 //! A pair counts by the inverse square of its round trip, so that one that waited in a queue or went out twice says
 //! next to nothing.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use zygote_protocol::Micros;
 
@@ -38,7 +38,7 @@ pub struct Clock {
 }
 
 /// The line through them: MCU time = host time + offset + rate x (host time - reference).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ClockFit {
     /// Host time at which the offset holds, us.
     pub reference_us: u64,

@@ -6,12 +6,15 @@ use crate::program::{self, ProgramError};
 use crate::report::{Outcome, RunReport, complete};
 use crate::session::{RequestError, Session, SessionError};
 use crate::{MotionState, Transport};
+use std::collections::BTreeSet;
 use zygote_deployment::{Fitting, Rig, RigError, Schedule};
 use zygote_protocol::{
     CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Millis, Reply, RigId, State,
     Step, Telemetry, program_crc,
 };
 
+/// An MCU that was lost is waited for so long: a reset takes less.
+const RECONNECT_PATIENCE: Millis = Millis(3_000);
 /// The user's wish to stop is looked at so often.
 const WATCH: Millis = Millis(50);
 /// An arming is followed by its start at once; this is for a slow line.
@@ -84,6 +87,8 @@ pub struct Deployment<'a> {
     pub rig: &'a Rig,
     /// Number of the run.
     pub run: u32,
+    /// Hinges that an earlier run has moved; see [`crate::EarlierRun`].
+    pub open: &'a BTreeSet<usize>,
     /// Leave the safe state first: a person has looked at the rig.
     pub clear: bool,
     /// Asked often: does the user want to stop?
@@ -100,10 +105,11 @@ pub fn deploy<T: Transport>(
     log: &mut EventLog,
     show: &mut dyn FnMut(&Progress),
 ) -> Result<RunReport, DeployError> {
-    let Deployment { schedule, rig, run, .. } = *deployment;
+    let Deployment { schedule: whole, rig, run, .. } = *deployment;
+    let schedule = &whole.rest(deployment.open);
     let info = session.info().clone();
     let (board, firmware) = (info.identity.board.to_string(), info.identity.firmware.to_string());
-    let fittings = rig.fit(schedule.steps.len())?;
+    let fittings = rig.fit(whole.steps.len())?;
     let steps = program::program(schedule, &info)?;
     let limits = program::limits(schedule, &steps, rig, &info)?;
     let rig_id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
@@ -130,7 +136,10 @@ pub fn deploy<T: Transport>(
         return Err(error.into());
     }
     let outcome = watch.until_the_end(session, deployment.interrupted, show);
-    Ok(watch.settle(session, outcome))
+    let mut report = watch.settle(session, outcome);
+    let moved: BTreeSet<_> = schedule.steps.iter().map(|step| step.hinge).collect();
+    report.precede(RunReport::new(run, &whole.rest(&moved), &board, &firmware));
+    Ok(report)
 }
 
 fn make_ready<T: Transport>(session: &mut Session<T>, clear: bool) -> Result<(), DeployError> {
@@ -332,7 +341,7 @@ impl Watch<'_> {
     /// Asks the MCU for the last word on every step, and closes the report.
     fn settle<T: Transport>(mut self, session: &mut Session<T>, outcome: Outcome) -> RunReport {
         let outcome = match outcome {
-            Outcome::Lost(why) => Outcome::Lost(why),
+            Outcome::Lost(why) => Outcome::Lost(self.after_loss(session, why)),
             ended => match self.ask_states(session) {
                 Ok(()) => ended,
                 Err(error) => Outcome::Lost(error.to_string()),
@@ -343,6 +352,43 @@ impl Watch<'_> {
         }
         self.report.finish(outcome, session.link_counters(), session.clock().fit());
         self.report
+    }
+
+    /// Asks an MCU that was lost once more, and gives what is known of it then; what can't be learned stays as it was seen last.
+    fn after_loss<T: Transport>(&mut self, session: &mut Session<T>, why: String) -> String {
+        if session.reconnect(RECONNECT_PATIENCE).is_err() {
+            return why;
+        }
+        let run = self.report.run;
+        let identity = session.info().identity.clone();
+        self.log.add(
+            session.now(),
+            &Record::Connected {
+                line: session.transport().name(),
+                board: identity.board.to_string(),
+                firmware: identity.firmware.to_string(),
+                boot: identity.boot,
+            },
+        );
+        match session.status() {
+            Ok(status) if status.run == Some(run) => {
+                let fault = status.fault.map_or_else(String::new, |fault| format!(": {}", fault.code));
+                match self.ask_states(session) {
+                    Ok(()) => format!("{why}; it is there again, {:?}{fault}", status.state),
+                    Err(_) => why,
+                }
+            }
+            Ok(_) => match session.last_run() {
+                Ok(Some(before)) if before.run == Some(run) => {
+                    for step in 0..before.steps {
+                        self.report.settle(usize::from(step), before.step(step));
+                    }
+                    format!("{why}; it was reset ({:?}) and kept what it knew of the run", identity.reset)
+                }
+                _ => format!("{why}; it was reset ({:?})", identity.reset),
+            },
+            Err(_) => why,
+        }
     }
 
     fn ask_states<T: Transport>(&mut self, session: &mut Session<T>) -> Result<(), RequestError> {

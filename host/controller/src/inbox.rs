@@ -55,6 +55,12 @@ impl Inbox {
         self.probe.is_some()
     }
 
+    /// Another session begins, with the same clock at the other end or another.
+    pub(crate) fn restart(&mut self, same_clock: bool) {
+        let clock = if same_clock { std::mem::take(&mut self.clock) } else { Clock::new() };
+        *self = Self { clock, ..Self::default() };
+    }
+
     pub(crate) fn clock(&self) -> &Clock {
         &self.clock
     }

@@ -1,7 +1,7 @@
 //! What came of a run (S12): which hinges moved, which didn't, why, and what to do next.
 
 use crate::ClockFit;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use zygote_deployment::{Direction, Kind, Schedule};
 use zygote_protocol::{LinkCounters, StepState};
@@ -23,7 +23,7 @@ pub enum Outcome {
 }
 
 /// What became of one hinge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HingeOutcome {
     /// Open, or closed where the run folds the shape up.
@@ -122,6 +122,13 @@ impl RunReport {
         }
     }
 
+    /// Puts hinges in front that an earlier run moved.
+    pub(crate) fn precede(&mut self, earlier: Self) {
+        let all =
+            earlier.hinges.into_iter().map(|hinge| HingeReport { outcome: HingeOutcome::Opened, ..hinge });
+        self.hinges.splice(0..0, all);
+    }
+
     /// Takes over what the MCU says of a step, which is the last word on it.
     pub(crate) fn settle(&mut self, step: usize, state: StepState) {
         if let Some(hinge) = self.hinges.get_mut(step) {
@@ -171,10 +178,10 @@ fn advice(outcome: &Outcome, interrupted: usize) -> String {
         Outcome::Deployed => "nothing: every hinge is open".to_owned(),
         Outcome::Folded => "nothing: every hinge is closed".to_owned(),
         Outcome::Stopped | Outcome::Fault(_) => {
-            format!("{look}; mend what is wrong, fold the structure back, and deploy again with --clear")
+            format!("{look}; mend what is wrong, and go on from here with --clear --resume and this report")
         }
         Outcome::Lost(_) => format!(
-            "{look}; the MCU has turned everything off by itself: check cable and power, then deploy again with --clear"
+            "{look}; the MCU has turned everything off by itself: check cable and power, then go on from here with --clear --resume and this report"
         ),
     }
 }

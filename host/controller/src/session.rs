@@ -6,8 +6,8 @@ use crate::connect::{self, ConnectError, transmit};
 use crate::inbox::{Broken, Inbox, Notice};
 use std::io;
 use zygote_protocol::{
-    Command, HelloReply, Link, LinkCounters, Micros, Millis, Refusal, Reply, Request, SendError, Status,
-    Urgent,
+    Command, HelloReply, Link, LinkCounters, Micros, Millis, Refusal, Reply, Request, SendError, Snapshot,
+    Status, Urgent,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
@@ -91,6 +91,7 @@ pub enum RequestError {
 pub struct Session<T> {
     transport: T,
     link: Link,
+    number: u32,
     info: HelloReply,
     next_id: u16,
     inbox: Inbox,
@@ -107,7 +108,7 @@ impl<T: Transport> Session<T> {
         let mut link = Link::new(transport.now());
         let info = connect::shake_hands(&mut transport, &mut link, number, patience)?;
         let next_probe = transport.now();
-        Ok(Self { transport, link, info, next_id: 0, inbox: Inbox::default(), next_probe })
+        Ok(Self { transport, link, number, info, next_id: 0, inbox: Inbox::default(), next_probe })
     }
 
     /// What the MCU said about itself.
@@ -224,8 +225,39 @@ impl<T: Transport> Session<T> {
     pub fn status(&mut self) -> Result<Status, RequestError> {
         match self.request(Command::Status)? {
             Reply::Status(status) => Ok(status),
-            Reply::Done | Reply::Progress { .. } => Err(RequestError::WrongReply { command: "status" }),
+            Reply::Done | Reply::Progress { .. } | Reply::LastRun(_) => {
+                Err(RequestError::WrongReply { command: "status" })
+            }
         }
+    }
+
+    /// Asks what the MCU was doing when it was reset.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn last_run(&mut self) -> Result<Option<Snapshot>, RequestError> {
+        match self.request(Command::LastRun)? {
+            Reply::LastRun(snapshot) => Ok(snapshot),
+            Reply::Done | Reply::Progress { .. } | Reply::Status(_) => {
+                Err(RequestError::WrongReply { command: "last run" })
+            }
+        }
+    }
+
+    /// Opens the next session on the same line, after this one was lost.
+    ///
+    /// # Errors
+    /// As [`Self::connect`].
+    pub fn reconnect(&mut self, patience: Millis) -> Result<(), ConnectError> {
+        // 0 is no session.
+        let number = self.number.checked_add(1).unwrap_or(1);
+        self.link = Link::new(self.transport.now());
+        let info = connect::shake_hands(&mut self.transport, &mut self.link, number, patience)?;
+        // An MCU that was reset has started its clock anew.
+        self.inbox.restart(info.identity.boot == self.info.identity.boot);
+        self.info = info;
+        self.number = number;
+        Ok(())
     }
 
     /// The next piece of news, waiting for it until `deadline` at most.
@@ -310,5 +342,6 @@ fn name_of(command: &Command) -> &'static str {
         Command::Start { .. } => "start",
         Command::Disarm => "disarm",
         Command::Clear => "clear",
+        Command::LastRun => "last run",
     }
 }

@@ -1,45 +1,56 @@
-//! How short schedules are, as a Markdown table: models in 1, 2 and 4 piles, opened in the order of the tree, on heaters and on
-//! servos, with a supply for 1, 4 and 16 hinges at once. Arguments: a folder for the problems as JSON, for other
-//! programs, or `-`; then names of models, or `large` for a cube of some 100,000 panels.
+//! How short schedules are, as a Markdown table: models in 1, 2 and 4 piles, opened in the order of the tree, on heaters, on
+//! servos that hold nothing, a little and much, and on both by turns, with a supply for 1, 4 and 16 hinges at once
+//! beside what is held. Arguments: a folder for the problems as JSON, for other programs, or `-`; then names of models,
+//! or `large` for a cube of some 100,000 panels.
 #![expect(clippy::print_stdout, reason = "its output is what it is for")]
 #![expect(clippy::unwrap_used, reason = "a tool for developers, as tests are")]
 
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
-use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
+use zygote_deployment::{Limits, Millis, Order, Rig, Schedule, Tree};
 use zygote_stacking::{Bridges, Model, Plan, Request, Surface, plan};
 
-/// What one hinge draws, and what it holds, in mA: the defaults of a rig file on 5 V, and servos that hold nothing.
-const KINDS: [Hinges; 3] = [
-    Hinges { title: "sma", kind: "sma", current: 200, hold: 0 },
-    Hinges { title: "servo", kind: "servo", current: 250, hold: 0 },
-    Hinges { title: "servo, holding", kind: "servo", current: 250, hold: 10 },
+/// The defaults of a rig file on 5 V, but for what is held.
+const KINDS: [Hinges; 5] = [
+    Hinges { title: "sma", kinds: &["sma"], current: 200, hold: 0 },
+    Hinges { title: "servo", kinds: &["servo"], current: 250, hold: 0 },
+    Hinges { title: "servo, holds 10 mA", kinds: &["servo"], current: 250, hold: 10 },
+    Hinges { title: "servo, holds 60 mA", kinds: &["servo"], current: 250, hold: 60 },
+    Hinges { title: "both, holds 60 mA", kinds: &["sma", "servo"], current: 250, hold: 60 },
 ];
 const AT_ONCE: [u64; 3] = [1, 4, 16];
 /// Panels along the edge of the large cube.
 const EDGE: i32 = 129;
 
-/// How all hinges are driven.
+/// How hinges are driven.
 struct Hinges {
     title: &'static str,
-    kind: &'static str,
+    /// By turns.
+    kinds: &'static [&'static str],
+    /// What one draws that moves, in mA; of several kinds the most.
     current: u64,
+    /// What a servo draws that is opened, in mA.
     hold: u64,
 }
 
-/// A rig with channels for all hinges, in as many nodes as that takes, and current for so many at once beside what is held.
+/// A rig with channels for all hinges, in as many nodes as that takes, and current for so many at once when all are held.
 fn rig(driven: &Hinges, hinges: usize, at_once: u64) -> Rig {
-    let Hinges { kind, current, hold, .. } = driven;
-    let limit = at_once * current + hold * hinges as u64;
+    let Hinges { kinds, current, hold, .. } = driven;
+    let kind_of = |hinge: usize| kinds[hinge % kinds.len()];
+    let servos = (0..hinges).filter(|hinge| kind_of(*hinge) == "servo").count();
+    let limit = at_once * current + hold * servos as u64;
     let head = format!(
         "version = 1\n[rig]\nid = \"bench\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\nresistance = \"0 ohm\"\n\
-         [hinges]\ndefault = \"{kind}\"\n[servo]\ncurrent = \"{current} mA\"\nhold_current = \"{hold} mA\"\n"
+         [hinges]\ndefault = \"{}\"\n[servo]\ncurrent = \"{current} mA\"\nhold_current = \"{hold} mA\"\n",
+        kinds[0]
     );
     let nodes = hinges.div_ceil(60_000);
     let channels = hinges.div_ceil(nodes);
     let node = |node| format!("[[node]]\nname = \"{node}\"\nheaters = {channels}\nservos = {channels}\n");
-    let text: String = [head].into_iter().chain((0..nodes).map(node)).collect();
+    let other = (0..hinges).filter(|hinge| kind_of(*hinge) != kinds[0]);
+    let other = other.map(|hinge| format!("[[hinge]]\nhinge = {hinge}\nkind = \"{}\"\n", kind_of(hinge)));
+    let text: String = [head].into_iter().chain((0..nodes).map(node)).chain(other).collect();
     Rig::read("rig.toml", &text).unwrap()
 }
 
@@ -83,29 +94,39 @@ fn problem(name: &str, schedule: &Schedule, order: &Order) -> serde_json::Value 
     })
 }
 
-fn row(name: &str, piles: usize, plan: &Plan, folder: &str) {
-    for driven in KINDS {
+/// Makespan and lower bound in seconds, and how they compare.
+fn cell(schedule: &Schedule) -> String {
+    let seconds = |time: Millis| time.0 as f64 / 1e3;
+    let makespan = seconds(schedule.makespan);
+    if schedule.makespan == schedule.lower_bound {
+        format!(" {makespan:.1} | proven |")
+    } else {
+        format!(" {makespan:.1} / {:.1} | {:.3} |", seconds(schedule.lower_bound), schedule.ratio())
+    }
+}
+
+fn rows(name: &str, piles: usize, plan: &Plan, folder: &str) {
+    // A rig file with an entry for each of so many hinges is no matter of schedules.
+    let few = plan.hinges.len() < 10_000;
+    for driven in KINDS.into_iter().filter(|driven| few || driven.kinds.len() == 1) {
+        let mut longest: f64 = 0.0;
+        let mut cells = String::new();
         for at_once in AT_ONCE {
             let rig = rig(&driven, plan.hinges.len(), at_once);
             let begin = Instant::now();
             let order = Order::of_tree(&Tree::new(plan).unwrap());
             let schedule = Schedule::plan(plan, &rig, &order, &Limits::default()).unwrap();
-            let took = begin.elapsed().as_secs_f64() * 1e3;
+            longest = longest.max(begin.elapsed().as_secs_f64() * 1e3);
             schedule.verify(plan, &rig).unwrap();
-            println!(
-                "| {name} | {piles} | {} | {at_once} | {} | {} | {:.3} | {took:.1} |",
-                driven.title,
-                schedule.makespan,
-                schedule.lower_bound,
-                schedule.ratio(),
-            );
+            cells += &cell(&schedule);
             if folder != "-" {
-                let file = Path::new(folder)
-                    .join(format!("{name}-{piles}-{}-{at_once}.json", driven.title.replace(", ", "-")));
-                let title = format!("{name}, K = {piles}, {}, {at_once} at once", driven.title);
+                let title = format!("{name}, K = {piles}, {}, for {at_once}", driven.title);
+                let file = title.replace(", ", "-").replace(' ', "");
+                let file = Path::new(folder).join(file).with_extension("json");
                 std::fs::write(file, problem(&title, &schedule, &order).to_string()).unwrap();
             }
         }
+        println!("| {name} | {piles} | {} |{cells} {longest:.1} |", driven.title);
     }
 }
 
@@ -116,9 +137,9 @@ fn main() {
     if names.is_empty() {
         names = ["i14", "l14", "fish92", "vehicle92", "airplane92"].map(String::from).into();
     }
-    println!(
-        "| model | K | hinges | supply for | makespan | lower bound | ratio | took, ms |\n|---|---|---|---|---|---|---|---|"
-    );
+    let supplies = AT_ONCE.map(|at_once| format!(" supply for {at_once}, s | ratio |")).concat();
+    println!("| model | K | hinges |{supplies} longest took, ms |");
+    println!("|---|---|---|{}---|", "---|---|".repeat(AT_ONCE.len()));
     for name in &names {
         let own = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../models/{name}.txt"));
         let model = if name == "large" { cube() } else { Model::read(&own, None).unwrap() };
@@ -127,7 +148,7 @@ fn main() {
                 continue;
             }
             let request = Request { piles, bridges: Bridges::Least, ..Request::default() };
-            row(name, piles, &plan(&model, &request).unwrap(), &folder);
+            rows(name, piles, &plan(&model, &request).unwrap(), &folder);
         }
     }
 }

@@ -30,7 +30,7 @@ mod tolerance;
 mod tree;
 
 pub use kinematics::Kinematics;
-pub use order::Order;
+pub use order::{Order, WaitError};
 pub use rig::*;
 pub use schedule::*;
 pub use tolerance::{HingeErrors, SingleStripError, Spread, Tolerance, ToleranceError, single_strip};

@@ -1,9 +1,9 @@
 //! A small host for tests: sends requests over the real link, collects what comes back, in virtual time.
 
 use zygote_protocol::{
-    Action, CentiCelsius, Channels, Command, Event, Fault, Heat, Hello, Limits, Link, MAX_ENCODED, Micros,
-    Milliamps, Millis, Received, Refusal, Release, Reply, Report, Request, Response, Step, StepState,
-    Telemetry, Turn, Urgent, decode_payload, program_crc,
+    Action, CentiCelsius, Channels, Command, Event, Fault, Heat, Hello, HelloReply, Identity, Limits, Link,
+    MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Release, Reply, Report, Request, ResetCause,
+    Response, Step, StepState, Telemetry, Turn, Urgent, decode_payload, program_crc,
 };
 use zygote_sim::Board;
 use zygote_sim::plant::{Config, ServoConfig, SmaConfig, SpringConfig};
@@ -84,6 +84,7 @@ pub(crate) struct Host {
     link: Link,
     responses: Vec<Response>,
     next_id: u16,
+    identity: Option<Identity>,
 }
 
 impl Host {
@@ -100,6 +101,7 @@ impl Host {
             link: Link::new(Micros(0)),
             responses: Vec::new(),
             next_id: 0,
+            identity: None,
         };
         host.connect(77);
         host
@@ -110,6 +112,16 @@ impl Host {
         self.link.send_hello(session, &Hello::ours()).unwrap();
         self.exchange();
         self.link.open(session, self.board.now());
+    }
+
+    /// Why the MCU says that it started.
+    pub(crate) fn reset_cause(&self) -> Option<ResetCause> {
+        self.identity.as_ref().map(|identity| identity.reset)
+    }
+
+    /// The MCU's boot id.
+    pub(crate) fn boot(&self) -> u32 {
+        self.identity.as_ref().unwrap().boot
     }
 
     /// Sends and receives without letting time pass.
@@ -147,7 +159,10 @@ impl Host {
                 },
                 Received::Urgent(payload) => self.faults.push(decode_payload(payload).unwrap()),
                 Received::Telemetry(payload) => self.telemetry.push(decode_payload(payload).unwrap()),
-                Received::HelloReply(..) => {}
+                Received::HelloReply(_, payload) => {
+                    let reply: HelloReply = decode_payload(payload).unwrap();
+                    self.identity = Some(reply.identity);
+                }
                 Received::Hello(..) | Received::Reset => panic!("{received:?}"),
             }
         }

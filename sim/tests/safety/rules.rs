@@ -1,12 +1,13 @@
 //! One test or more for each rule that the core enforces so far.
 
 use crate::host::{CHANNELS, Host, LIMITS, RIG, heat, plant, release, turn};
+use zygote_core::Duty;
 use zygote_protocol::{
     Action, CentiCelsius, Command, EventKind, FaultCode, Limits, Micros, Milliamps, Millis, RefusalCode,
-    ResetCause, State, Step, StepState,
+    Reply, ResetCause, State, Step, StepState,
 };
 use zygote_sim::plant::Fault as Broken;
-use zygote_sim::{Board, CEILING};
+use zygote_sim::{Board, CEILING, Stuck};
 
 fn warm_hinge() -> Host {
     let mut host = Host::new(&plant());
@@ -450,4 +451,101 @@ fn a_silent_board_needs_no_host() {
     let mut bytes = Vec::new();
     board.transmit(&mut bytes);
     assert!(bytes.is_empty(), "nothing is said to nobody");
+}
+
+/// Heats hinge 0 until it is at `celsius`, breaks its thermistor, and tells what came of it, how long the heater was still on,
+/// and how hot the foil truly got.
+fn broken_while_heating(celsius: f64, broken: Broken) -> (FaultCode, Millis, f64) {
+    let mut host = Host::new(&plant());
+    host.run(&[heat(0, &[])]);
+    host.pass_until(Millis(20_000), |host| host.board.plant().sma_hinges()[0].temperature_c() > celsius);
+    host.board.plant_mut().inject(broken).unwrap();
+    let since = host.board.now();
+    let (mut last_on, mut peak) = (since, celsius);
+    host.pass_until(Millis(20_000), |host| {
+        peak = peak.max(host.board.plant().sma_hinges()[0].temperature_c());
+        if host.board.core().outputs().heaters[0] != Duty::OFF {
+            last_on = host.board.now();
+        }
+        host.board.core().state() == State::Safe
+    });
+    (fault(&host), Millis(u32::try_from(last_on.since(since) / 1000).unwrap()), peak)
+}
+
+#[test]
+fn s5_a_frozen_thermistor_turns_its_heater_off_within_half_a_second_wherever_it_freezes() {
+    for celsius in [30.0, 60.0, 80.0, 92.0, 96.0] {
+        let (code, on, peak) = broken_while_heating(celsius, Broken::ThermistorFrozen(0));
+        assert_eq!(code, FaultCode::SensorFrozen, "frozen at {celsius} °C");
+        assert!(on <= Millis(510), "frozen at {celsius} °C: on for {on}");
+        assert!(peak < 120.0, "frozen at {celsius} °C: {peak} °C");
+    }
+}
+
+#[test]
+fn s6_a_thermistor_that_comes_off_turns_its_heater_off_within_a_tenth_of_a_second() {
+    for celsius in [60.0, 80.0, 92.0, 96.0] {
+        let (code, on, peak) = broken_while_heating(celsius, Broken::ThermistorLoose(0));
+        assert!(matches!(code, FaultCode::NoGain | FaultCode::SensorJumped), "at {celsius} °C: {code}");
+        assert!(on <= Millis(100), "loose at {celsius} °C: on for {on}");
+        assert!(peak < 105.0, "loose at {celsius} °C: {peak} °C");
+    }
+}
+
+#[test]
+fn s6_a_mosfet_that_sticks_while_its_hinge_cools_is_cut_by_the_main_switch() {
+    let mut host = Host::new(&plant());
+    host.run(&[heat(0, &[])]);
+    host.pass_until(Millis(30_000), |host| {
+        host.events.iter().any(|event| matches!(event.kind, EventKind::StepOpened { .. }))
+    });
+    host.board.plant_mut().inject(Broken::MosfetStuckOn(0)).unwrap();
+    host.pass_until(Millis(12_000), |host| host.board.core().state() == State::Safe);
+    assert!(matches!(fault(&host), FaultCode::NoCooling | FaultCode::UnexpectedHeat), "{}", fault(&host));
+    host.pass(Millis(10));
+    assert!(host.board.plant().supply_a() == 0.0);
+}
+
+#[test]
+fn s3_s9_stuck_tasks_are_cut_by_the_dead_mans_switch_within_50_ms() {
+    let mut host = warm_hinge();
+    host.board.hang(Stuck::Tasks);
+    let off = host.pass_until(Millis(60), |host| host.board.plant().supply_a() == 0.0);
+    assert!(off <= Millis(50), "{off}");
+    host.connect(78);
+    assert_eq!(host.reset_cause(), Some(ResetCause::DeadMan));
+    only_cools(&mut host);
+}
+
+#[test]
+fn s9_a_stuck_mcu_is_reset_within_500_ms_and_tells_what_it_was_doing() {
+    let mut host = Host::new(&plant());
+    host.run(&[turn(10, &[]), heat(0, &[0]), heat(1, &[1])]);
+    host.pass_until(Millis(20_000), |host| host.board.plant().sma_hinges()[0].temperature_c() > 60.0);
+    let boot = host.boot();
+    host.board.hang(Stuck::Everything);
+    let off = host.pass_until(Millis(600), |host| host.board.plant().supply_a() == 0.0);
+    assert!(off <= Millis(500), "{off}");
+    host.connect(78);
+    assert_eq!(host.reset_cause(), Some(ResetCause::Watchdog));
+    let Ok(Reply::LastRun(Some(before))) = host.ask(Command::LastRun) else { panic!("no snapshot") };
+    assert_eq!((before.boot, before.state, before.run, before.steps), (boot, State::Running, Some(5), 3));
+    assert_eq!(
+        [0, 1, 2].map(|step| before.step(step)),
+        [StepState::Done, StepState::Interrupted, StepState::Waiting]
+    );
+    only_cools(&mut host);
+}
+
+#[test]
+fn s9_a_fault_is_told_after_the_reset_that_followed_it_and_forgotten_when_power_was_off() {
+    for (cause, told) in [(ResetCause::Software, true), (ResetCause::Power, false)] {
+        let mut host = warm_hinge();
+        host.stop();
+        host.board.reset(cause);
+        host.connect(78);
+        let Ok(Reply::LastRun(before)) = host.ask(Command::LastRun) else { panic!("no answer") };
+        let fault = before.and_then(|before| before.fault).map(|fault| fault.code);
+        assert_eq!(fault, told.then_some(FaultCode::Stopped));
+    }
 }

@@ -1,7 +1,9 @@
-//! One row of the table: `zygote plan` as a whole process, several times, and what it says of its plan.
+//! The program as a whole process, measured; and one row of the table of planning: `zygote plan` several times, and what it
+//! says of its plan.
 
 use crate::tools;
 use anyhow::{Context, Result, ensure};
+use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,10 +28,22 @@ pub(super) enum Row {
     Refused(String),
 }
 
+/// One run of the program.
+pub(super) struct Run {
+    pub(super) seconds: f64,
+    /// What GNU time said, where there is one.
+    pub(super) used: Option<Used>,
+    pub(super) said: String,
+    /// What it said on the error output.
+    pub(super) complaint: String,
+    /// 0 is good; none where it was killed.
+    pub(super) code: Option<i32>,
+}
+
 /// What one run used.
 pub(super) struct Used {
     kilobytes: f64,
-    processor_seconds: f64,
+    pub(super) processor_seconds: f64,
 }
 
 impl Used {
@@ -44,32 +58,49 @@ impl Used {
 pub(super) const HEAD: &str = "| instance | N | K | seconds, median (min to max) | CPU s | peak MB | bridges | cut | depth | valid |\n|---|---|---|---|---|---|---|---|---|---|";
 
 impl Bench {
+    /// Runs the program once.
+    pub(super) fn run<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Result<Run> {
+        let timed = Path::new(TIME).is_file();
+        let mut command = if timed { Command::new(TIME) } else { Command::new(&self.program) };
+        if timed {
+            command.args(["-q", "-f", "%M %U %S"]).arg(&self.program);
+        }
+        let begin = Instant::now();
+        let output = command
+            .args(arguments)
+            .output()
+            .with_context(|| format!("cannot start {}", self.program.display()))?;
+        let seconds = begin.elapsed().as_secs_f64();
+        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        let used = Used::of(&complaint);
+        // Without the line that GNU time adds.
+        let words: Vec<_> = complaint.lines().filter(|line| Used::of(line).is_none()).collect();
+        Ok(Run {
+            seconds,
+            used,
+            said: String::from_utf8_lossy(&output.stdout).into_owned(),
+            complaint: words.join(" "),
+            code: output.status.code(),
+        })
+    }
+
     /// Plans a model several times.
     pub(super) fn measure(&self, model: &Path, piles: usize, runs: usize) -> Result<Row> {
         let plan = self.place.join("plan.fold");
-        let timed = Path::new(TIME).is_file();
         let (mut seconds, mut used, mut said) = (Vec::with_capacity(runs), Vec::new(), String::new());
         for _ in 0..runs {
-            let mut command = if timed { Command::new(TIME) } else { Command::new(&self.program) };
-            if timed {
-                command.args(["-q", "-f", "%M %U %S"]).arg(&self.program);
+            let piles = piles.to_string();
+            let asked =
+                ["plan".as_ref(), model.as_os_str(), "--piles".as_ref(), piles.as_ref(), "--output".as_ref()];
+            let run = self.run(asked.into_iter().chain([plan.as_os_str()]))?;
+            if run.code != Some(0) {
+                let reason = run.complaint.split_once(&format!("{}: ", model.display()));
+                let reason = reason.map(|(_, reason)| reason.into());
+                return Ok(Row::Refused(reason.unwrap_or(run.complaint)));
             }
-            command.arg("plan").arg(model).args(["--piles", &piles.to_string(), "--output"]).arg(&plan);
-            let begin = Instant::now();
-            let output =
-                command.output().with_context(|| format!("cannot start {}", self.program.display()))?;
-            seconds.push(begin.elapsed().as_secs_f64());
-            let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
-            if !output.status.success() {
-                // Without the line that GNU time adds.
-                let words = complaint.lines().filter(|line| Used::of(line).is_none());
-                let told = words.collect::<Vec<_>>().join(" ");
-                let reason =
-                    told.split_once(&format!("{}: ", model.display())).map(|(_, reason)| reason.into());
-                return Ok(Row::Refused(reason.unwrap_or(told)));
-            }
-            used.extend(Used::of(&complaint));
-            said = String::from_utf8_lossy(&output.stdout).into_owned();
+            seconds.push(run.seconds);
+            used.extend(run.used);
+            said = run.said;
         }
         seconds.sort_by(f64::total_cmp);
         // A process of its own reads the file again and checks it by rules that share no code with the planner.

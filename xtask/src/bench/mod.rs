@@ -4,5 +4,6 @@ mod blob;
 pub(crate) mod deployment;
 mod hard;
 mod measure;
+pub(crate) mod motion;
 mod peers;
 pub(crate) mod stacking;

@@ -63,7 +63,7 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
 }
 
 /// Cores, and what they are called where the system says so.
-fn machine() -> String {
+pub(super) fn machine() -> String {
     let cores = thread::available_parallelism().map_or(0, usize::from);
     let told = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let name = told.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));

@@ -5,6 +5,7 @@
 
 mod actuators;
 mod clocks;
+mod dead_man;
 mod identity;
 mod pins;
 mod reset;
@@ -32,6 +33,7 @@ use embassy_stm32::{
 use sensors::Sensors;
 use shell::{BoardCore, Shell};
 use static_cell::{ConstStaticCell, StaticCell};
+use zygote_protocol::ResetCause;
 
 /// Rate of the line to the ST-LINK's virtual COM port.
 const BAUD: u32 = 921_600;
@@ -94,9 +96,13 @@ async fn start(spawner: Spawner, p: Peripherals) {
         thermistors: [0; pins::HEATERS],
     };
 
-    let config = identity::config(reset::boot_id(sensors.noise()), reset::cause());
-    let core = BoardCore::new(config, shell::now());
+    let (cause, kept) = (reset::cause(), reset::kept());
+    // After power was off memory holds anything, even something that looks whole.
+    let kept = kept.filter(|_| cause != ResetCause::Power);
+    let config = identity::config(reset::boot_id(sensors.noise()), cause);
+    let core = BoardCore::new(config, shell::now(), kept);
     let shell = SHELL.init(Shell::new(core, actuators));
+    dead_man::watch();
 
     let mut config = usart::Config::default();
     config.baudrate = BAUD;

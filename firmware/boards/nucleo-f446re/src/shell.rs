@@ -3,7 +3,9 @@
 
 use crate::{
     actuators::Actuators,
+    dead_man,
     pins::{HEATERS, SERVOS, SPRINGS, STEPS},
+    reset,
 };
 use core::cell::RefCell;
 use embassy_sync::{
@@ -17,16 +19,16 @@ use zygote_protocol::Micros;
 /// The core of this board.
 pub(crate) type BoardCore = Core<HEATERS, SERVOS, SPRINGS, STEPS>;
 
-/// The core and the actuators, for tasks of one executor.
+/// The core, the actuators, and the core's changes that are kept for after a reset; for tasks of one executor.
 pub(crate) struct Shell {
-    inner: Mutex<NoopRawMutex, RefCell<(BoardCore, Actuators)>>,
+    inner: Mutex<NoopRawMutex, RefCell<(BoardCore, Actuators, u32)>>,
     /// Set when the core may have something to say to the host.
     pub(crate) speak: Signal<NoopRawMutex, ()>,
 }
 
 impl Shell {
     pub(crate) const fn new(core: BoardCore, actuators: Actuators) -> Self {
-        Self { inner: Mutex::new(RefCell::new((core, actuators))), speak: Signal::new() }
+        Self { inner: Mutex::new(RefCell::new((core, actuators, 0))), speak: Signal::new() }
     }
 
     /// Bytes from the host.
@@ -48,9 +50,15 @@ impl Shell {
 
     fn call<R>(&self, verb: impl FnOnce(&mut BoardCore) -> R) -> R {
         self.inner.lock(|inner| {
-            let (core, actuators) = &mut *inner.borrow_mut();
+            let (core, actuators, kept) = &mut *inner.borrow_mut();
             let result = verb(core);
             actuators.apply(core.outputs());
+            dead_man::set(core.dead_line());
+            let changes = core.changes();
+            if changes != *kept {
+                *kept = changes;
+                reset::keep(&core.snapshot(now()));
+            }
             result
         })
     }

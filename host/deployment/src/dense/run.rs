@@ -22,10 +22,13 @@ struct Running {
     /// Fractions of its turn in a unit of time.
     speed: f64,
     fraction: f64,
+    /// Whether it takes no time.
+    jumps: bool,
 }
 
-/// Opens every hinge when all that it waits for are open, or a little later, at a speed of its own.
-pub(super) fn at_once(sampler: &mut Sampler, order: &Order, seed: u64) {
+/// Opens every hinge when all that it waits for are open, or a little later, at a speed of its own; some at a jump, while all
+/// others stay where they are.
+pub(super) fn at_once(sampler: &mut Sampler, order: &Order, jumping: &[usize], seed: u64) {
     let mut random = Random(seed);
     let mut open_for = vec![Vec::new(); order.hinges.len()];
     let mut waiting: Vec<usize> = order.waits_for.iter().map(Vec::len).collect();
@@ -44,16 +47,18 @@ pub(super) fn at_once(sampler: &mut Sampler, order: &Order, seed: u64) {
             let delay = (random.next() - 0.5).max(0.0) * 4.0;
             let speed = 8_f64.powf(random.next());
             let joint = sampler.plates().joint_of[hinge];
-            running.push(Running { joint, start: now + delay, speed, fraction: 0.0 });
+            let jumps = jumping.contains(&hinge);
+            running.push(Running { joint, start: now + delay, speed, fraction: 0.0, jumps });
         }
         let next = |running: &Running| {
-            if running.start > now { running.start } else { now + (1.0 - running.fraction) / running.speed }
+            let left = if running.jumps { 0.0 } else { (1.0 - running.fraction) / running.speed };
+            if running.start > now { running.start } else { now + left }
         };
         let Some(then) = running.iter().map(next).reduce(f64::min) else { return };
         let mut moving = Vec::new();
         for one in running.iter_mut().filter(|one| one.start <= now) {
             let to = one.fraction + (then - now) * one.speed;
-            let to = if to >= DONE { 1.0 } else { to };
+            let to = if to >= DONE || one.jumps { 1.0 } else { to };
             moving.push(Moving { joint: one.joint, from: one.fraction, to });
             one.fraction = to;
         }

@@ -12,6 +12,8 @@ use zygote_stacking::Plan;
 pub struct Scheduled {
     /// Its order, with what waits for what.
     pub order: Order,
+    /// Hinges that springs open, at a jump.
+    pub springs: Vec<usize>,
     /// What was proved of it; none where nothing was.
     pub certificate: Option<Certificate>,
 }
@@ -28,6 +30,14 @@ struct File {
 struct Step {
     hinge: usize,
     after: Vec<usize>,
+    #[serde(default)]
+    motion: Motion,
+}
+
+#[derive(Default, Deserialize)]
+struct Motion {
+    #[serde(default)]
+    kind: String,
 }
 
 impl Scheduled {
@@ -49,6 +59,8 @@ impl Scheduled {
             let others: Option<Vec<_>> = step.after.iter().map(|after| hinges.get(*after).copied()).collect();
             *waits_for.get_mut(step.hinge).ok_or_else(refused)? = others.ok_or_else(refused)?;
         }
-        Ok(Self { order: Order { hinges, waits_for }, certificate })
+        let springs =
+            steps.iter().filter(|step| step.motion.kind == "spring").map(|step| step.hinge).collect();
+        Ok(Self { order: Order { hinges, waits_for }, springs, certificate })
     }
 }

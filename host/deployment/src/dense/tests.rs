@@ -1,6 +1,8 @@
 //! Verdicts of the sampler: on motions that are free, on motions that aren't, and against the prover.
 
-use super::{DenseError, Meeting, Other, Scheduled, Setting, Verdict, verify, verify_with};
+use super::{
+    DenseError, Meeting, Other, Scheduled, Setting, Verdict, verify, verify_with, verify_with_jumps,
+};
 use crate::motion::{self, Effort, Ground, Options, Thickness, check, search, waits_for};
 use crate::order::Order;
 use crate::schedule::Fingerprint;
@@ -117,8 +119,8 @@ fn boxes_found_near_each_other_give_the_verdict_of_all_pairs() {
         let order = Order::of_tree(&tree);
         let plates = Thickness { thickness: 0.05, rim: 0.05 };
         let coarse = Setting { step_deg: 10.0, at_once: 1, ..setting(plates) };
-        let every = verify_with(&plan, &order, &coarse, usize::MAX).expect("an order");
-        let near = verify_with(&plan, &order, &coarse, 0).expect("an order");
+        let every = verify_with(&plan, &order, &[], &coarse, usize::MAX).expect("an order");
+        let near = verify_with(&plan, &order, &[], &coarse, 0).expect("an order");
         assert!(near.pairs <= every.pairs);
         assert_eq!(near, Verdict { pairs: near.pairs, ..every });
         meetings += near.meetings.len();
@@ -217,4 +219,54 @@ fn a_schedule_s_motion_is_read_with_its_waits_and_its_certificate() {
     assert!(refused.starts_with(&format!("schedule: made for plan {crc}, this is plan ")), "{refused}");
     let refused = Scheduled::read(&plan, &serde_json::json!({ "steps": [] })).expect_err("none").to_string();
     assert_eq!(refused, "schedule: missing field `plan_crc64`");
+}
+
+#[test]
+fn springs_among_heaters_and_servos_jump_without_meeting_what_moves() {
+    let (mut springs, mut plans) = (0, 0);
+    for (name, piles) in [("l14.txt", 1), ("l14.txt", 2), ("fish92.txt", 2), ("vehicle92.txt", 4)] {
+        let plan = model_plan(name, piles, Bridges::Base);
+        let plates = Thickness::ideal(&plan);
+        let found = search(&plan, plates, None, &Effort::default(), &mut |_, _| ()).expect("plates");
+        assert_eq!((found.blocked, found.root), (0, plan.root));
+        let order = waits_for(&plan, &found.hinges, plates).expect("an order");
+        let mut text =
+            crate::testing::rig_text("").replace("= 16", "= 100").replace("servos = 4", "servos = 100");
+        text = text.replace("springs = 2", "springs = 100");
+        for hinge in 0..plan.hinges.len() {
+            let kind = ["spring", "sma", "servo"][hinge % 3];
+            for part in ["[[hinge]]\nhinge = ", &hinge.to_string(), "\nkind = \"", kind, "\"\n"] {
+                text.push_str(part);
+            }
+        }
+        let rig = crate::rig::Rig::read("rig.toml", &text).expect("a good rig");
+        let limits = crate::schedule::Limits::default();
+        let schedule = crate::schedule::Schedule::plan(&plan, &rig, &order, &limits).expect("a schedule");
+        assert!(schedule.most_at_once() > 1);
+        let scheduled = Scheduled::read(&plan, &schedule.to_json().expect("JSON")).expect("a schedule");
+        let own: Vec<_> = (0..plan.hinges.len()).step_by(3).collect();
+        let mut told = scheduled.springs.clone();
+        told.sort_unstable();
+        assert_eq!(told, own);
+        let often = Setting { at_once: 12, ..setting(plates) };
+        let verdict =
+            verify_with_jumps(&plan, &scheduled.order, &scheduled.springs, &often).expect("an order");
+        assert!(verdict.is_free(), "{name} in {piles}: {:?}", verdict.meetings);
+        springs += scheduled.springs.len();
+        plans += 1;
+    }
+    assert!(springs > 50 && plans == 4);
+}
+
+#[test]
+fn springs_let_loose_are_seen_to_jump_into_what_moves() {
+    let plan = model_plan("fish92.txt", 2, Bridges::Least);
+    let plates = Thickness::ideal(&plan);
+    let found = search(&plan, plates, None, &EFFORT, &mut |_, _| ()).expect("plates");
+    let plan = Plan { root: found.root, ..plan };
+    let loose = Order { hinges: found.hinges.clone(), waits_for: vec![Vec::new(); found.hinges.len()] };
+    let jumping: Vec<_> = (0..plan.hinges.len()).step_by(3).collect();
+    let often = Setting { at_once: 2, step_deg: 4.0, ..setting(plates) };
+    let verdict = verify_with_jumps(&plan, &loose, &jumping, &often).expect("an order");
+    assert!(verdict.meetings.iter().any(|meeting| meeting.at_once && jumping.contains(&meeting.hinge)));
 }

@@ -14,6 +14,8 @@ use crate::tree::{Branch, Tree};
 pub(super) struct Backward<'a> {
     tree: &'a Tree,
     motion: Motion,
+    /// Of some hinges, those that must be open before them.
+    after: &'a [Vec<usize>],
     seed: u64,
     /// Hinges that are closed, in the order in which they were.
     closed: Vec<usize>,
@@ -27,13 +29,13 @@ pub(super) struct Backward<'a> {
 
 impl<'a> Backward<'a> {
     /// `motion` has all hinges closed.
-    pub(super) fn new(tree: &'a Tree, mut motion: Motion, seed: u64) -> Self {
+    pub(super) fn new(tree: &'a Tree, mut motion: Motion, after: &'a [Vec<usize>], seed: u64) -> Self {
         let open: Vec<usize> = tree.branches().iter().map(|branch| branch.hinge).collect();
         for hinge in &open {
             motion.open(*hinge);
         }
         let preferred = vec![0.0; open.len()];
-        Self { tree, motion, seed, closed: Vec::new(), open, preferred, dead_ends: 0, looks: 0 }
+        Self { tree, motion, after, seed, closed: Vec::new(), open, preferred, dead_ends: 0, looks: 0 }
     }
 
     /// The order in which hinges open; none when `looks` hinges were looked at without one.
@@ -62,6 +64,10 @@ impl<'a> Backward<'a> {
     /// Closes a hinge if nothing is in its way, and no hinge is shut out by that.
     fn try_close(&mut self, hinge: usize) -> bool {
         self.looks += 1;
+        let waits = |other: &usize| self.after.get(*other).is_some_and(|before| before.contains(&hinge));
+        if self.open.iter().any(waits) {
+            return false;
+        }
         self.motion.close(hinge);
         let good = self.motion.blocked(hinge).is_none() && !self.shuts_out(hinge);
         if !good {

@@ -1,7 +1,7 @@
 //! What a check of a motion found, as it stands in a schedule.
 
 use super::check::Report;
-use super::state::Ground;
+use super::ground::Ground;
 use super::thickness::Thickness;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,8 @@
 //! Checks an order of opening all hinges for collisions, over the whole of every turn.
 
 use super::collision::Collision;
-use super::state::{Ground, Motion, Tally};
+use super::ground::Ground;
+use super::state::{Motion, Tally};
 use super::thickness::{MotionError, Thickness};
 use std::fmt;
 use zygote_stacking::Plan;

@@ -47,12 +47,14 @@ impl Forward {
         new
     }
 
-    /// The order, and how many hinges in it are blocked; none where that are not less than `most`.
+    /// The order, and how many hinges in it are blocked; none where that are not less than `most`. `after` has of some
+    /// hinges those that must be open before them; where that leads to a dead end, there is none either.
     pub(super) fn run(
         &self,
         mut motion: Motion,
         preference: Preference,
         most: Option<usize>,
+        after: &[Vec<usize>],
     ) -> Option<(Vec<usize>, usize)> {
         let hinges = motion.linkage().hinges();
         let mut ready = self.next[hinges].clone();
@@ -61,7 +63,11 @@ impl Forward {
         while !ready.is_empty() {
             self.sort(&mut ready, preference);
             let mut depths = vec![0.0; ready.len()];
-            let free = (0..ready.len()).rev().find(|place| match motion.blocked(ready[*place]) {
+            let may = |hinge: usize| {
+                after.get(hinge).is_none_or(|others| others.iter().all(|other| motion.is_open(*other)))
+            };
+            let mut ready_now = (0..ready.len()).rev().filter(|place| may(ready[*place]));
+            let free = ready_now.find(|place| match motion.blocked(ready[*place]) {
                 None => true,
                 Some(collision) => {
                     depths[*place] = collision.depth;
@@ -75,7 +81,9 @@ impl Forward {
                 if most.is_some_and(|most| blocked >= most) {
                     return None;
                 }
-                (0..ready.len()).min_by(|a, b| depths[*a].total_cmp(&depths[*b]))?
+                (0..ready.len())
+                    .filter(|place| may(ready[*place]))
+                    .min_by(|a, b| depths[*a].total_cmp(&depths[*b]))?
             };
             let hinge = ready.remove(place);
             motion.open(hinge);

@@ -1,5 +1,6 @@
 //! A plan that opens without a collision: where the motion of one plan isn't free, stacking is asked for another.
 
+use super::ground::Ground;
 use super::search::{Effort, Found, search};
 use super::thickness::{MotionError, Thickness};
 use zygote_stacking::{Model, Plan, PlanError, Request, plan};
@@ -23,6 +24,9 @@ impl Plates {
     }
 }
 
+/// Roots tried on a ground beside the first.
+const ROOTS_ON_GROUND: usize = 11;
+
 /// A plan, and how it opens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreePlan {
@@ -43,6 +47,15 @@ pub enum FreePlanError {
     /// Nothing was to be tried.
     #[error("no plan tried, expected at least 1 try")]
     NoTries,
+    /// A ground that no plan opens above.
+    #[error(
+        "of {tried} plans none has a panel that could stay fixed on the ground: whichever does, something of the target lies \
+         below it, or layers of its pile lie under it"
+    )]
+    NoRoot {
+        /// Plans tried.
+        tried: u64,
+    },
     /// Plates that can't be.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -50,21 +63,25 @@ pub enum FreePlanError {
 
 /// Plans with one seed after the other, from the request's on, until one opens freely; where none of `tries` does, gives the
 /// one with the fewest hinges that something blocks. `told` hears before every try how many there were, and how many hinges
-/// the best plan leaves blocked.
+/// the best plan leaves blocked. On a ground the root is one of the panels that can stay fixed on it.
 ///
 /// # Errors
-/// Where no seed gives a plan, why the last one didn't.
+/// Where no seed gives a plan, why the last one didn't; on a ground also if no plan has a panel that can be the root.
 pub fn free_plan(
     model: &Model,
     request: &Request,
     plates: Plates,
+    ground: Option<Ground>,
     tries: u64,
     told: &mut dyn FnMut(u64, Option<usize>),
 ) -> Result<FreePlan, FreePlanError> {
     // Many plans, each for a short time, find one sooner than one for a long time.
-    let effort = Effort { other_roots: 2, ..Effort::default() };
+    // On a ground little but the root decides.
+    let other_roots = if ground.is_some() { ROOTS_ON_GROUND } else { 2 };
+    let effort = Effort { other_roots, ..Effort::default() };
     let mut best: Option<FreePlan> = None;
     let mut failed = None;
+    let mut rootless = 0;
     for tried in 1..=tries {
         told(tried - 1, best.as_ref().map(|best| best.found.blocked));
         let seed = request.seed.wrapping_add(tried - 1);
@@ -75,7 +92,14 @@ pub fn free_plan(
                 continue;
             }
         };
-        let found = search(&plan, plates.thickness(&plan), None, &effort, &mut |_, _| {})?;
+        let thickness = plates.thickness(&plan);
+        if let Some(ground) = ground
+            && ground.roots(&plan, thickness)?.is_empty()
+        {
+            rootless += 1;
+            continue;
+        }
+        let found = search(&plan, thickness, ground, &effort, &mut |_, _| {})?;
         if best.as_ref().is_none_or(|best| found.blocked < best.found.blocked) {
             let done = found.blocked == 0;
             best = Some(FreePlan { plan: Plan { root: found.root, ..plan }, found, tried });
@@ -86,6 +110,7 @@ pub fn free_plan(
     }
     match (best, failed) {
         (Some(best), _) => Ok(best),
+        (None, _) if rootless > 0 => Err(FreePlanError::NoRoot { tried: rootless }),
         (None, Some(error)) => Err(error.into()),
         (None, None) => Err(FreePlanError::NoTries),
     }

@@ -4,26 +4,15 @@ use super::apart::{Conflict, Pair, Wanted};
 use super::block::{self, Block};
 use super::collision::{Collision, Obstacle};
 use super::cuboid::Cuboid;
+use super::ground::{Ground, Plane};
 use super::linkage::Linkage;
 use super::near::{self, LOOKED_FOR};
 use super::thickness::{MotionError, Thickness};
 use super::turning::{Body, Turn};
 use super::{FINEST, TOUCHING};
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 use std::sync::Arc;
 use zygote_stacking::Plan;
-
-/// A plane that touches the zygote and that nothing may pass: a table, a wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ground {
-    /// From the ground to the free side, in the zygote's space; of any length above 0.
-    pub normal: DVec3,
-}
-
-impl Ground {
-    /// A table that the zygote lies on.
-    pub const TABLE: Self = Self { normal: DVec3::Z };
-}
 
 /// The panels of a plan while they move. Cheap to clone: what doesn't move is shared.
 #[derive(Debug, Clone)]
@@ -32,12 +21,6 @@ pub struct Motion {
     ground: Option<Plane>,
     open: Vec<bool>,
     poses: Vec<DAffine3>,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Plane {
-    normal: DVec3,
-    offset: f64,
 }
 
 /// What was looked at.
@@ -62,7 +45,7 @@ impl Motion {
     pub fn new(plan: &Plan, thickness: Thickness, ground: Option<Ground>) -> Result<Self, MotionError> {
         let linkage = Linkage::new(plan, thickness)?;
         let (open, poses) = (vec![false; linkage.hinges()], linkage.poses_at(&[]));
-        let ground = ground.map(|ground| plane_under(&linkage, &poses, ground)).transpose()?;
+        let ground = ground.map(|ground| ground.plane(&linkage, &poses)).transpose()?;
         Ok(Self { linkage: Arc::new(linkage), ground, open, poses })
     }
 
@@ -334,31 +317,4 @@ impl Motion {
 fn degrees(turn: &Turn) -> impl Iterator<Item = f64> {
     let angle = turn.angle;
     (0..=360).map(|degree| f64::from(degree).to_radians()).take_while(move |at| *at <= angle + TOUCHING)
-}
-
-/// The plane along the zygote's lowest points, seen against the normal.
-fn plane_under(linkage: &Linkage, poses: &[DAffine3], ground: Ground) -> Result<Plane, MotionError> {
-    let DVec3 { x, y, z } = ground.normal;
-    let normal = ground.normal.try_normalize().ok_or(MotionError::Ground { x, y, z })?;
-    let inner = DVec3::NEG_Z * linkage.thickness().thickness;
-    let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
-    let points = poses.iter().flat_map(|pose| {
-        corners.iter().flat_map(move |corner| [*corner, *corner + inner].map(|at| pose.transform_point3(at)))
-    });
-    let offset = points.map(|point| point.dot(normal)).fold(f64::INFINITY, f64::min);
-    Ok(Plane { normal, offset })
-}
-
-impl Plane {
-    /// The least angles at which a body gets below the plane.
-    fn conflict(&self, body: &Body) -> Option<[f64; 2]> {
-        let below = |interval: &_| body.extent(self.normal, interval)[0] < self.offset - TOUCHING;
-        let mut piece = body.quarters().into_iter().find(below)?;
-        while body.travel(&piece) > FINEST {
-            // Extents are exact, so one half or the other is below.
-            let [early, late] = piece.halves();
-            piece = if below(&early) { early } else { late };
-        }
-        Some([piece.from, piece.to])
-    }
 }

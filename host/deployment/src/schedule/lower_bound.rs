@@ -1,6 +1,7 @@
 //! No schedule is shorter than this.
 
 use super::problem::Problem;
+use super::progress;
 
 /// More work than this is not worth a better bound.
 const WORK: usize = 20_000_000;
@@ -35,46 +36,7 @@ pub(super) fn of(problem: &Problem) -> u64 {
             }
         }
     }
-    best.max(by_what_is_left(problem))
-}
-
-/// Every hinge that is open takes what it holds from those that move, so the more are open, the fewer move at once. When
-/// so much work is done, at least so many are open as it takes of the longest ones, but for those that just move.
-fn by_what_is_left(problem: &Problem) -> u64 {
-    let least = |of: fn(&super::problem::Task) -> u64| problem.tasks.iter().map(of).min().unwrap_or(0);
-    let (current, hold) = (least(|task| task.current), least(|task| task.hold));
-    if hold == 0 {
-        return 0;
-    }
-    let at_once = |open: usize| {
-        let left = problem.limit.saturating_sub(hold * open as u64);
-        usize::try_from(left / current.max(1)).unwrap_or(usize::MAX).clamp(1, problem.parallel)
-    };
-    let mut longest: Vec<_> = problem.tasks.iter().map(|task| task.duration).collect();
-    longest.sort_unstable_by_key(|duration| std::cmp::Reverse(*duration));
-    // While `open` are open, no more work can have been done than these and those that move are long.
-    let mut work = 0_u64;
-    let mut done = 0;
-    let mut time = 0.0;
-    let mut within = 0;
-    for open in 0..problem.len() {
-        let most = at_once(open);
-        while within < (open + most).min(longest.len()) {
-            work += longest[within];
-            within += 1;
-        }
-        time += work.saturating_sub(done) as f64 / most as f64;
-        done = done.max(work);
-    }
-    whole_below(time)
-}
-
-/// Rounding of a sum of as many terms as there are hinges is far below this.
-const ROUNDING: f64 = 1e-3;
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a time in ms, not negative")]
-fn whole_below(time: f64) -> u64 {
-    (time - ROUNDING).ceil().max(0.0) as u64
+    best.max(progress::of(problem))
 }
 
 /// Some of the heads of the tasks, 0 among them; all if there is time for that.

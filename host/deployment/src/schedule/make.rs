@@ -140,6 +140,7 @@ impl Schedule {
             plan_crc64: Fingerprint::of(plan),
             order_crc64: Fingerprint::of_order(&steps),
             certificate: None,
+            loads: None,
             parallel: limits.parallel.map(|parallel| parallel.max(1)),
             one_servo_a_node: limits.one_servo_a_node,
             supply_limit: limit,

@@ -13,11 +13,14 @@ mod crossing;
 mod exact;
 mod fingerprint;
 mod greedy;
+mod heaviest;
 mod lower_bound;
 mod make;
 mod motion;
 mod problem;
+mod progress;
 mod reduction;
+mod rest;
 mod reversed;
 mod search;
 mod timeline;
@@ -35,6 +38,7 @@ pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
 
 use crate::motion::Certificate;
+use crate::statics::Loads;
 use serde::{Deserialize, Serialize};
 
 /// The one version of the schedule.
@@ -57,6 +61,9 @@ pub struct Schedule {
     /// What was checked of its order's motion; without it nothing was, and hinges open in the order of the tree.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
+    /// What gravity does to it; without it nothing was weighed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loads: Option<Loads>,
     /// Most motions at once, where that is limited beside the supply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parallel: Option<usize>,
@@ -141,6 +148,17 @@ impl Schedule {
     #[must_use]
     pub fn with_certificate(self, certificate: Certificate) -> Self {
         Self { certificate: Some(certificate), ..self }
+    }
+
+    /// With what was weighed of its steps.
+    #[must_use]
+    pub fn with_loads(self, loads: Loads) -> Self {
+        Self { loads: Some(loads), ..self }
+    }
+
+    /// The hinges in the order of its steps.
+    pub fn hinges(&self) -> Vec<usize> {
+        self.steps.iter().map(|step| step.hinge).collect()
     }
 
     /// How many times as long as the lower bound it takes; 1 is the shortest there is.

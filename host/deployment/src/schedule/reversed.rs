@@ -7,7 +7,7 @@ use super::{
     Fingerprint, MOST_AFTER, Milliamps, Millis, Motion, Schedule, ServoMotion, Step, VerifyError, reduction,
 };
 use crate::rig::{Kind, Rig};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use zygote_stacking::Plan;
 
 /// Why a schedule can't be run backwards.
@@ -49,7 +49,7 @@ pub enum ReverseError {
 }
 
 /// Which way a schedule goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
     /// From the zygote to the target.

@@ -11,7 +11,7 @@
 
 use super::exact;
 use super::greedy::{self, Stuck};
-use super::problem::Problem;
+use super::problem::{Problem, Task};
 use super::timeline::{Load, Timeline};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -20,6 +20,12 @@ use std::collections::BinaryHeap;
 const SERIAL: usize = 6_000;
 /// Random lists end when hinges times hinges times lists come to this.
 const WORK: usize = 40_000_000;
+/// Kinds of random lists, by turns.
+const FORMS: usize = 6;
+/// Motions at other times, at most.
+const MOVED: u64 = 8;
+/// How much more a long motion counts than the way after it.
+const FAVOURS: [u64; 4] = [0, 1, 4, 16];
 /// Seed of the random lists: a plan has one schedule.
 const SEED: u64 = 0x7a79_676f_7465_0004;
 
@@ -106,46 +112,77 @@ impl Best<'_> {
         }
     }
 
-    /// Places by a list, then pushes to the end and back.
-    fn list(&mut self, keys: &[u64]) {
-        let Some(starts) = serial(self.problem, keys) else { return };
-        let justified = justify(self.problem, &starts);
+    /// Places by a list, then pushes to the end and back: the last of these, if what is held leaves room.
+    fn list(&mut self, keys: &[u64]) -> Option<(u64, Vec<u64>)> {
+        let starts = serial(self.problem, keys)?;
+        let justified = from_end(self.problem, &until_end(self.problem, &starts));
+        let last = justified.as_ref().unwrap_or(&starts).clone();
         self.offer(starts);
         if let Some(justified) = justified {
             self.offer(justified);
         }
+        Some((self.problem.makespan(&last), last))
     }
 
-    /// Lists at random: by turns around the longest way to go, with more or less favour for long motions, which had best run
-    /// before much is held; and around the best so far.
+    /// Places by a list from the end.
+    fn list_from_end(&mut self, keys: &[u64]) -> Option<(u64, Vec<u64>)> {
+        let starts = from_end(self.problem, keys)?;
+        self.offer(starts.clone());
+        Some((self.problem.makespan(&starts), starts))
+    }
+
+    /// Lists at random, by turns: by the longest way to go, from the start or from the end; by the best so far; and by a
+    /// schedule of which a few motions go to another time, from one to the next that is no longer.
     fn sample(&mut self, samples: usize) {
         let mut random = Random(SEED);
-        let way: Vec<u64> = self
-            .problem
-            .tasks
-            .iter()
-            .zip(&self.problem.tail)
-            .map(|(task, tail)| task.duration + tail)
-            .collect();
-        let longest = way.iter().copied().max().unwrap_or(0);
-        let longest_motion = self.problem.tasks.iter().map(|task| task.duration).max().unwrap_or(0);
+        let problem = self.problem;
+        let longest_motion = problem.tasks.iter().map(|task| task.duration).max().unwrap_or(0);
+        let longest = (0..problem.len()).map(|task| problem.tail[task] + problem.tasks[task].duration).max();
+        let longest = longest.unwrap_or(0);
+        // Long motions had best run before much is held.
+        let by_way =
+            |ways: &[u64], favour: u64, from_end: bool, reach: u64, random: &mut Random| -> Vec<u64> {
+                let tasks = problem.tasks.iter().zip(ways);
+                let late = |(task, way): (&Task, &u64)| {
+                    let long = if from_end { task.duration } else { longest_motion - task.duration };
+                    longest - way - task.duration + favour * long
+                };
+                tasks.map(|task| late(task) + random.below(reach)).collect()
+            };
+        let mut here = self.shortest.clone();
         for sample in 0..samples {
-            let keys: Vec<u64> = match &self.shortest {
-                Some((makespan, starts)) if sample % 2 == 1 => {
-                    // From a tenth of the whole down to a fiftieth.
-                    let reach = 1 + makespan / (10 + 10 * (sample as u64 / 2 % 5));
-                    starts.iter().map(|start| start + random.below(reach)).collect()
+            let round = sample / FORMS;
+            let reach = 1 + longest / (1 + round as u64 % 4);
+            let favour = FAVOURS[round / 4 % FAVOURS.len()];
+            let found = match (sample % FORMS, &self.shortest, &here) {
+                (0, _, _) => self.list(&by_way(&problem.tail, favour, false, reach, &mut random)),
+                (1, _, _) | (_, None, _) | (_, _, None) => {
+                    self.list_from_end(&by_way(&problem.head, favour, true, reach, &mut random))
                 }
-                _ => {
-                    let reach = 1 + longest / (1 + sample as u64 / 2 % 4);
-                    let favour = [0, 1, 4, 16][sample / 8 % 4];
-                    let late = |task: usize| {
-                        longest - way[task] + favour * (longest_motion - self.problem.tasks[task].duration)
-                    };
-                    (0..self.problem.len()).map(|task| late(task) + random.below(reach)).collect()
+                (2, Some((makespan, starts)), _) => {
+                    // From a tenth of the whole down to a fiftieth.
+                    let reach = 1 + makespan / (10 + 10 * (round as u64 % 5));
+                    let keys: Vec<_> = starts.iter().map(|start| start + random.below(reach)).collect();
+                    self.list(&keys)
+                }
+                (form, _, Some((makespan, starts))) => {
+                    let turned = form % 2 == 0;
+                    let mut keys = if turned { until_end(problem, starts) } else { starts.clone() };
+                    for key in &mut keys {
+                        *key += makespan / 2;
+                    }
+                    for _ in 0..=random.below(MOVED) {
+                        let task = random.index(keys.len());
+                        keys[task] = (keys[task] + random.below(*makespan)).saturating_sub(makespan / 2);
+                    }
+                    if turned { self.list_from_end(&keys) } else { self.list(&keys) }
                 }
             };
-            self.list(&keys);
+            if let Some(found) = found
+                && here.as_ref().is_none_or(|here| found.0 <= here.0)
+            {
+                here = Some(found);
+            }
             if self.is_proven() {
                 return;
             }
@@ -156,27 +193,9 @@ impl Best<'_> {
 /// Starts of tasks that are placed one by one, each as early as can be: of those whose predecessors are placed the
 /// lowest key first. `None` if what is held leaves no room.
 fn serial(problem: &Problem, keys: &[u64]) -> Option<Vec<u64>> {
-    let mut missing: Vec<_> = problem.before.iter().map(Vec::len).collect();
-    let mut ready: BinaryHeap<_> =
-        (0..problem.len()).filter(|t| missing[*t] == 0).map(|task| Reverse((keys[task], task))).collect();
-    let mut order = Vec::with_capacity(problem.len());
-    while let Some(Reverse((_, task))) = ready.pop() {
-        order.push(task);
-        for &follower in &problem.followers[task] {
-            missing[follower] -= 1;
-            if missing[follower] == 0 {
-                ready.push(Reverse((keys[follower], follower)));
-            }
-        }
-    }
-    place(problem, &order)
-}
-
-/// Places tasks in this order, in which each comes after those before it.
-fn place(problem: &Problem, order: &[usize]) -> Option<Vec<u64>> {
     let mut timeline = Timeline::new(0, signed(problem.limit), problem.parallel);
     let mut starts = vec![0; problem.len()];
-    for &number in order {
+    for number in listed(&problem.before, &problem.followers, keys) {
         let task = &problem.tasks[number];
         let ready = problem.before[number].iter().map(|b| starts[*b] + problem.tasks[*b].duration).max();
         let load = Load {
@@ -190,30 +209,49 @@ fn place(problem: &Problem, order: &[usize]) -> Option<Vec<u64>> {
     Some(starts)
 }
 
-/// Pushes every task as late as can be, the last first, then as early as can be.
-fn justify(problem: &Problem, starts: &[u64]) -> Option<Vec<u64>> {
-    let ended = |task: usize| starts[task] + problem.tasks[task].duration;
-    let mut place_of = vec![0; problem.len()];
-    problem.topological.iter().enumerate().for_each(|(at, task)| place_of[*task] = at);
-    let mut order: Vec<_> = (0..problem.len()).collect();
-    order.sort_by_key(|task| Reverse((ended(*task), place_of[*task])));
+/// Starts of tasks that are placed one by one, each as late as can be, of those whose followers are placed the lowest key
+/// first; and then pushed as early as can be, the first first.
+fn from_end(problem: &Problem, keys: &[u64]) -> Option<Vec<u64>> {
     // Time runs backwards: everything is held at first, and no longer before its own motion.
     let held = problem.tasks.iter().map(|task| task.hold).sum();
     let mut timeline = Timeline::new(signed(held), signed(problem.limit), problem.parallel);
-    let mut ends = vec![0; problem.len()];
-    for &number in &order {
+    let mut left = vec![0; problem.len()];
+    for number in listed(&problem.followers, &problem.before, keys) {
         let task = &problem.tasks[number];
-        let ready = problem.followers[number].iter().map(|f| ends[*f] + problem.tasks[*f].duration).max();
+        let ready = problem.followers[number].iter().map(|f| left[*f] + problem.tasks[*f].duration).max();
         let load = Load {
             duration: task.duration,
             during: signed(task.current) - signed(task.hold),
             after: -signed(task.hold),
             turn: task.turn,
         };
-        ends[number] = timeline.place(ready.unwrap_or(0), &load)?;
+        left[number] = timeline.place(ready.unwrap_or(0), &load)?;
     }
-    order.sort_by_key(|task| (Reverse(ends[*task] + problem.tasks[*task].duration), place_of[*task]));
-    place(problem, &order)
+    serial(problem, &until_end(problem, &left))
+}
+
+/// How long before the end of all each ends; of a schedule whose time runs backwards, when each starts.
+fn until_end(problem: &Problem, starts: &[u64]) -> Vec<u64> {
+    let makespan = problem.makespan(starts);
+    starts.iter().zip(&problem.tasks).map(|(start, task)| makespan - start - task.duration).collect()
+}
+
+/// All tasks, each after those in its `before`, of those that may be next the one of the lowest key.
+fn listed(before: &[Vec<usize>], followers: &[Vec<usize>], keys: &[u64]) -> Vec<usize> {
+    let mut missing: Vec<_> = before.iter().map(Vec::len).collect();
+    let mut ready: BinaryHeap<_> =
+        (0..before.len()).filter(|t| missing[*t] == 0).map(|task| Reverse((keys[task], task))).collect();
+    let mut order = Vec::with_capacity(before.len());
+    while let Some(Reverse((_, task))) = ready.pop() {
+        order.push(task);
+        for &follower in &followers[task] {
+            missing[follower] -= 1;
+            if missing[follower] == 0 {
+                ready.push(Reverse((keys[follower], follower)));
+            }
+        }
+    }
+    order
 }
 
 /// Currents are bounded by a supply's limit, or are refused before.
@@ -225,6 +263,11 @@ fn signed(current: u64) -> i64 {
 struct Random(u64);
 
 impl Random {
+    /// One of so many.
+    fn index(&mut self, count: usize) -> usize {
+        usize::try_from(self.below(count as u64)).unwrap_or(0)
+    }
+
     fn below(&mut self, end: u64) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = self.0;

@@ -3,9 +3,15 @@
 use super::MOST_AFTER;
 use super::problem::{Problem, Task};
 use super::waiting::{self, Waiting};
-use super::{lower_bound, make, search};
+use super::{Limits, Schedule};
+use super::{exact, lower_bound, make, progress, search};
+use crate::order::Order;
+use crate::rig::Rig;
+use crate::tree::Tree;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
+use std::path::Path;
+use zygote_stacking::{Bridges, Model, Request};
 
 const LIMIT: u64 = 10;
 
@@ -149,6 +155,18 @@ proptest! {
         }
     }
 
+    /// Beyond what trying everything can do, the bounds against branch and bound.
+    #[test]
+    fn no_bound_is_above_the_shortest_whatever_is_held((problem, _) in random_problem(11, 6, 0.15, 2)) {
+        let (starts, proven) = exact::shorter(&problem, None);
+        prop_assert!(proven, "a few tasks are looked at to the end");
+        let Some(starts) = starts else { return Ok(()) };
+        prop_assert_eq!(is_good(&problem, &starts, &durations(&problem)), Ok(()));
+        let shortest = problem.makespan(&starts);
+        prop_assert!(progress::of(&problem) <= shortest, "{} of {}", progress::of(&problem), shortest);
+        prop_assert!(lower_bound::of(&problem) <= shortest, "{} of {}", lower_bound::of(&problem), shortest);
+    }
+
     #[test]
     fn every_schedule_keeps_precedence_supply_lanes_and_turns((problem, _) in random_problem(40, 9, 0.1, 0)) {
         let found = search::best(&problem, lower_bound::of(&problem), 20).expect("nothing is held");
@@ -204,4 +222,54 @@ fn sixteen_that_all_later_ones_wait_for_are_gathered_in_one_more_round() {
     assert!(waiting.after.iter().all(|after| after.len() <= MOST_AFTER));
     assert_eq!((found.makespan, found.bound), (30, 20));
     assert_eq!(waiting::of(&problem, &[0; 32]).map_err(|asked| asked.len()), Err(16));
+}
+
+/// Kinds of hinges by turns, what servos hold in mA, the limit in mA, and the shortest makespans in ms of `i14` in one pile
+/// and in two, and of `l14` in one and in two. That none is shorter was proven by OR-Tools CP-SAT 9.15.
+const SHORTEST: [(&[&str], u64, u64, [u64; 4]); 9] = [
+    (&["sma"], 0, 200, [108_433, 108_433, 108_433, 108_433]),
+    (&["sma"], 0, 400, [58_387, 58_387, 58_387, 58_387]),
+    (&["sma"], 0, 800, [58_387, 41_705, 58_387, 33_364]),
+    (&["servo"], 10, 380, [28_600, 31_600, 28_600, 29_600]),
+    (&["servo"], 10, 630, [16_400, 16_200, 16_400, 15_000]),
+    (&["servo"], 60, 1_030, [19_600, 16_400, 18_800, 15_600]),
+    (&["servo"], 60, 1_280, [16_400, 11_000, 16_400, 10_000]),
+    (&["servo"], 60, 1_530, [16_400, 11_000, 16_400, 8_800]),
+    (&["sma", "servo"], 60, 860, [37_964, 28_423, 37_964, 27_223]),
+];
+
+#[test]
+fn fourteen_panels_are_scheduled_as_short_as_another_solver_proves() {
+    let mut plans = Vec::new();
+    for name in ["i14", "l14"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../models/{name}.txt"));
+        let model = Model::read(&path, None).expect("a model");
+        for piles in [1, 2] {
+            let request = Request { piles, bridges: Bridges::Least, ..Request::default() };
+            plans.push((name, zygote_stacking::plan(&model, &request).expect("a plan")));
+        }
+    }
+    for (kinds, hold, limit, shortest) in SHORTEST {
+        for ((name, plan), shortest) in plans.iter().zip(shortest) {
+            let entries: Vec<String> = (0..plan.hinges.len())
+                .map(|hinge| {
+                    format!("[[hinge]]\nhinge = {hinge}\nkind = \"{}\"\n", kinds[hinge % kinds.len()])
+                })
+                .collect();
+            let current = if kinds == ["sma"] { 200 } else { 250 };
+            let rig = format!(
+                "version = 1\n[rig]\nid = \"14\"\n[supply]\nvoltage = \"5 V\"\nlimit = \"{limit} mA\"\n\
+                 resistance = \"0 ohm\"\n[hinges]\ndefault = \"{}\"\n[servo]\ncurrent = \"{current} mA\"\n\
+                 hold_current = \"{hold} mA\"\n[[node]]\nname = \"one\"\nheaters = 13\nservos = 13\n{}",
+                kinds[0],
+                entries.concat()
+            );
+            let rig = Rig::read("rig.toml", &rig).expect("a good rig");
+            let order = Order::of_tree(&Tree::new(plan).expect("a tree"));
+            let schedule = Schedule::plan(plan, &rig, &order, &Limits::default()).expect("a schedule");
+            schedule.verify(plan, &rig).expect("a good schedule");
+            let case = format!("{name} in {} piles, {kinds:?}, {hold} mA, {limit} mA", plan.piles.len());
+            assert_eq!((schedule.makespan.0, schedule.lower_bound.0), (shortest, shortest), "{case}");
+        }
+    }
 }

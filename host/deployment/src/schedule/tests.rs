@@ -230,6 +230,52 @@ fn another_order_than_that_of_the_tree_needs_a_certificate_and_is_then_kept() {
 }
 
 #[test]
+fn loads_that_are_not_those_of_the_rig_are_found() {
+    use crate::statics::{Loads, Statics, Support};
+    type Reweigh = fn(&mut Loads);
+    let plan = &crate::testing::real_plans()[1];
+    let weighs = |extra: &str| rig(&format!("[panel]\nmass = \"20 g\"\n{extra}"));
+    let schedule = planned(plan, &weighs(""), 1).expect("a schedule");
+    let statics = Statics::of(plan, &weighs(""), &schedule.hinges(), Support::Touching).expect("loads");
+    let good = schedule.with_loads(Loads::of(&statics, &weighs("")));
+    assert!(good.loads.as_ref().is_some_and(|loads| !loads.overloaded.is_empty()));
+    good.verify(plan, &weighs("")).expect("what was weighed");
+    assert_eq!(
+        Schedule::from_text(&good.to_text().expect("text")).expect("a good schedule").hinges(),
+        good.hinges()
+    );
+    let refusal = |rig: &Rig, change: &dyn Fn(&mut Loads)| {
+        let mut changed = good.clone();
+        changed.loads.as_mut().into_iter().for_each(change);
+        changed.verify(plan, rig).expect_err("another weighing").to_string()
+    };
+    let same = &|_: &mut Loads| ();
+    for (extra, key) in [
+        ("[sma]\ntorque = \"1 Nm\"\n", "loads.overloaded should be []"),
+        (
+            "[gravity]\ndirection = [1, 0, 0]\n",
+            "loads.gravity should be [1.0, 0.0, 0.0], found [0.0, 0.0, -1.0]",
+        ),
+    ] {
+        let said = refusal(&weighs(extra), same);
+        assert!(said.contains(key), "{said}");
+    }
+    let weightless = refusal(&rig(""), same);
+    assert!(weightless.contains("loads should be left out (rig.toml: panel.mass"), "{weightless}");
+    let changes: [(&str, Reweigh); 5] = [
+        ("loads.panel_mass_g should be 20, found 21", |loads| loads.panel_mass_g += 1.0),
+        ("loads.overloaded should be", |loads| loads.overloaded.clear()),
+        ("loads.worst_factor should be", |loads| loads.worst_factor *= 0.5),
+        ("loads.tips_in_step should be", |loads| loads.tips_in_step = Some(99)),
+        ("loads.tipping_margin_mm should be", |loads| loads.tipping_margin_mm = Some(1e6)),
+    ];
+    for (key, change) in changes {
+        let said = refusal(&weighs(""), &change);
+        assert!(said.contains(key), "{key}: {said}");
+    }
+}
+
+#[test]
 fn an_order_that_is_none_is_refused_by_name() {
     let plan = strip(4);
     let refusal = |order: &Order| {

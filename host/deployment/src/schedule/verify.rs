@@ -4,6 +4,7 @@
 use super::motion::{Cost, start_opening_deg};
 use super::{Fingerprint, MOST_AFTER, Milliamps, Millis, Schedule};
 use crate::rig::{Kind, Rig, RigError};
+use crate::statics::{Loads, Statics};
 use crate::tree::{Tree, TreeError};
 use std::collections::{BTreeMap, BTreeSet};
 use zygote_stacking::Plan;
@@ -111,7 +112,8 @@ impl Schedule {
         whole("order_crc64", Fingerprint::of_order(&self.steps), self.order_crc64)?;
         self.verify_settings(plan, rig, &tree)?;
         self.verify_turns()?;
-        self.verify_load()
+        self.verify_currents()?;
+        self.verify_loads(plan, rig)
     }
 
     #[expect(
@@ -238,7 +240,7 @@ impl Schedule {
     }
 
     /// Currents and motions at once, at every moment at which something changes; makespan and peak.
-    fn verify_load(&self) -> Result<(), VerifyError> {
+    fn verify_currents(&self) -> Result<(), VerifyError> {
         // (time, change of current, change of motions); at one time endings come first, being negative.
         let mut changes: Vec<(Millis, i128, i32)> = Vec::with_capacity(2 * self.steps.len());
         for step in &self.steps {
@@ -270,6 +272,20 @@ impl Schedule {
             return Err(VerifyError::Whole { key: "lower_bound_ms", expected, found });
         }
         Ok(())
+    }
+
+    /// What was weighed is what this rig's masses, gravity and ratings say.
+    fn verify_loads(&self, plan: &Plan, rig: &Rig) -> Result<(), VerifyError> {
+        let Some(loads) = &self.loads else { return Ok(()) };
+        let refuse = |key, expected, found| Err(VerifyError::Whole { key, expected, found });
+        let weighed = match Statics::of(plan, rig, &self.hinges(), loads.support) {
+            Ok(statics) => Loads::of(&statics, rig),
+            Err(error) => return refuse("loads", format!("left out ({error})"), "some".to_owned()),
+        };
+        match weighed.difference(loads) {
+            Some((key, expected, found)) => refuse(key, expected, found),
+            None => Ok(()),
+        }
     }
 
     /// Of the servos of a node one at a time, where the schedule says so.

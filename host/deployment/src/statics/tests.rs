@@ -210,3 +210,64 @@ fn orders_and_rigs_that_say_too_little_are_refused() {
     let expected = "rig.toml: panel.mass: expected what a panel weighs, as in mass = \"12 g\", found none";
     assert_eq!(refusal(&light, &[0]), expected);
 }
+
+#[test]
+fn what_a_hinge_holds_in_the_shape_no_order_changes() {
+    let rig = rig(&down(DVec3::new(0.3, -0.5, -1.0)));
+    for plan in real_plans() {
+        let linkage = Linkage::new(&plan, Thickness::of(&plan)).expect("joints");
+        let order = outwards(&plan);
+        let mut inwards = order.clone();
+        inwards.reverse();
+        let [out, back] = [order, inwards].map(|order| {
+            let mut loads = Statics::of(&plan, &rig, &order, Support::Root).expect("loads").in_shape;
+            loads.sort_by_key(|load| load.hinge);
+            loads
+        });
+        for (load, other) in out.iter().zip(&back) {
+            assert!((load.torque.0 - other.torque.0).abs() < 1e-9, "{load:?} {other:?}");
+            if linkage.turn_deg(load.hinge) > 0.0 {
+                // All are open but for this one, at its end.
+                let by_sums = brute(&linkage, &plan, &rig, &vec![1.0; plan.hinges.len()], load.hinge);
+                assert!((load.torque.0 - by_sums).abs() < 1e-8, "{load:?}, by sums {by_sums}");
+            }
+        }
+    }
+}
+
+#[test]
+fn from_the_root_outwards_every_order_has_the_same_loads_in_all_turns() {
+    let rig = rig(&down(DVec3::new(0.3, -0.5, -1.0)));
+    for plan in real_plans() {
+        let tree = Tree::new(&plan).expect("a tree");
+        let turning = |order: &[usize]| {
+            let mut loads = Statics::of(&plan, &rig, order, Support::Root).expect("loads").turning;
+            loads.sort_by_key(|load| load.hinge);
+            loads
+        };
+        // By distance from the root instead of branch by branch.
+        let mut depth = vec![0; plan.hinges.len()];
+        for branch in tree.branches() {
+            depth[branch.hinge] = branch.before.map_or(0, |before| depth[before] + 1);
+        }
+        let mut wide = outwards(&plan);
+        wide.sort_by_key(|hinge| depth[*hinge]);
+        for (load, other) in turning(&outwards(&plan)).iter().zip(&turning(&wide)) {
+            assert!((load.torque.0 - other.torque.0).abs() < 1e-9, "{load:?} {other:?}");
+        }
+    }
+}
+
+#[test]
+fn a_row_is_borne_best_from_its_middle() {
+    let (plan, rig) = row();
+    let (root, overloaded) = lightest_root(&plan, &rig, Support::Root).expect("loads").expect("a small plan");
+    // From the end 3 panels hang on a hinge, from the middle 2.
+    assert!(plan.piles[0].panels[1..3].contains(&root), "{root}");
+    let at = |root| {
+        let plan = Plan { root, ..plan.clone() };
+        Statics::of(&plan, &rig, &outwards(&plan), Support::Root).expect("loads")
+    };
+    assert_eq!(at(root).overloaded().len(), overloaded);
+    assert!(at(root).is_lighter_than(&at(plan.root)) && !at(plan.root).is_lighter_than(&at(root)));
+}

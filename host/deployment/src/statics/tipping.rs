@@ -3,11 +3,13 @@
 use super::swing::Swing;
 use crate::rig::Millimetres;
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// What the whole stands on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Support {
-    /// All that touches the ground, which is the plane across gravity that the zygote lies on.
+    /// All that touches the [ground](crate::motion::Ground), the plane across gravity that the zygote lies on.
     #[default]
     Touching,
     /// The root alone, as on a stand of its size.

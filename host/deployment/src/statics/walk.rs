@@ -3,11 +3,12 @@
 use super::load::{Load, Opening, Role, worst};
 use super::swing::Swing;
 use super::tipping::{Centre, Support, Tipping, margin};
-use crate::motion::{Motion, MotionError, Thickness, Turn};
+use crate::motion::{Ground, Motion, MotionError, Plane, Thickness, Turn};
 use crate::rig::{Degrees, Fitting, Grams, Millimetres, NewtonMetres, Rig, RigError};
 use crate::schedule::start_opening_deg;
 use crate::tree::{Tree, TreeError};
 use glam::DVec3;
+use std::collections::BTreeSet;
 use zygote_stacking::Plan;
 
 /// Standard gravity, m/s².
@@ -24,6 +25,8 @@ pub struct Statics {
     pub turning: Vec<Load>,
     /// Of every step, in order, the worst load of its hinge from then to the end.
     pub holding: Vec<Load>,
+    /// Of every step, in order, what its hinge holds when all are open: no order changes that.
+    pub in_shape: Vec<Load>,
     /// Whether the whole stands.
     pub tipping: Tipping,
 }
@@ -88,12 +91,26 @@ impl Statics {
             });
             walk.open(hinge);
         }
-        Ok(Self { panel_mass: mass, turning, holding, tipping: Tipping { support, margins } })
+        let in_shape = order.iter().filter_map(|hinge| Some(walk.holding(*hinge, turning.last()?))).collect();
+        Ok(Self { panel_mass: mass, turning, holding, in_shape, tipping: Tipping { support, margins } })
     }
 
     /// All loads beyond the rating, the worst first.
     pub fn overloads(&self) -> Vec<Load> {
         self.worst_first().into_iter().take_while(Load::is_overload).collect()
+    }
+
+    /// The hinges that some load overloads, rising.
+    pub fn overloaded(&self) -> Vec<usize> {
+        let hinges: BTreeSet<_> = self.overloads().iter().map(|load| load.hinge).collect();
+        hinges.into_iter().collect()
+    }
+
+    /// Those that are overloaded when all are open, whatever the order, rising.
+    pub fn overloaded_in_shape(&self) -> Vec<usize> {
+        let beyond = self.in_shape.iter().filter(|load| load.is_overload());
+        let hinges: BTreeSet<_> = beyond.map(|load| load.hinge).collect();
+        hinges.into_iter().collect()
     }
 
     /// With panels of at most this mass no hinge is overloaded: torque goes with the mass. `None` where nothing has an arm.
@@ -127,8 +144,7 @@ struct Walk<'a> {
     total: DVec3,
     /// Newtons that a panel weighs, times the panel length in metres: arms are in panel lengths.
     weight: DVec3,
-    up: DVec3,
-    ground: f64,
+    ground: Plane,
     /// Of every panel, whether it touches the ground.
     grounded: Vec<bool>,
 }
@@ -143,7 +159,7 @@ impl<'a> Walk<'a> {
         }
         let counts: Vec<_> =
             tree.branches().iter().map(|branch| motion.linkage().moved(branch.hinge).count()).collect();
-        let down = down.normalize();
+        let ground = Ground { normal: -down }.plane(motion.linkage(), motion.poses())?;
         let mut walk = Self {
             plan,
             fittings,
@@ -153,15 +169,12 @@ impl<'a> Walk<'a> {
             counts,
             tree,
             total: DVec3::ZERO,
-            weight: down * (mass.0 * 1e-3 * GRAVITY * plan.panel_length_mm * 1e-3),
-            up: -down,
-            ground: f64::INFINITY,
+            weight: -ground.normal * (mass.0 * 1e-3 * GRAVITY * plan.panel_length_mm * 1e-3),
+            ground,
             grounded: vec![false; plan.panels()],
         };
         walk.sum(0..walk.sums.len());
         walk.total = (0..plan.panels()).map(|panel| walk.centre(panel)).sum();
-        let heights = (0..plan.panels()).flat_map(|panel| walk.corners(panel)).map(|at| at.dot(walk.up));
-        walk.ground = heights.fold(f64::INFINITY, f64::min);
         for panel in 0..plan.panels() {
             walk.grounded[panel] = walk.touches(panel);
         }
@@ -183,7 +196,7 @@ impl<'a> Walk<'a> {
     }
 
     fn on_ground(&self, point: DVec3) -> bool {
-        (point.dot(self.up) - self.ground).abs() <= ON_GROUND
+        self.ground.above(point).abs() <= ON_GROUND
     }
 
     fn touches(&self, panel: usize) -> bool {
@@ -247,6 +260,22 @@ impl<'a> Walk<'a> {
             rating: rating.at(opening.at(angle)),
         };
         (load(Role::Turning, worst(&swing, rating, &opening)), load(Role::Holding, turn.angle))
+    }
+
+    /// What an open hinge holds after the last step.
+    fn holding(&self, hinge: usize, last: &Load) -> Load {
+        let (axis, arm) = self.arm(self.branch_of[hinge]);
+        let own = Degrees(f64::from(self.plan.hinges[hinge].opening_deg));
+        let turned = &self.plan.hinges[last.turning];
+        Load {
+            hinge,
+            role: Role::Holding,
+            step: last.step,
+            turning: last.turning,
+            opening: Degrees(f64::from(turned.opening_deg)),
+            torque: NewtonMetres(Self::torque(axis, arm, self.weight)),
+            rating: self.fittings[hinge].drive.torque().at(own),
+        }
     }
 
     /// Calls `take` with the load of every open hinge that feels the turn of a hinge: those that carry it, and those that it
@@ -347,7 +376,7 @@ impl<'a> Walk<'a> {
             sine: sine * share,
             slope: slope * share,
         };
-        margin(&points, self.up, &centre, turn.angle)
+        margin(&points, self.ground.normal, &centre, turn.angle)
     }
 
     fn open(&mut self, hinge: usize) {
