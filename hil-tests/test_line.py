@@ -3,11 +3,13 @@
 import random
 import time
 
+import pytest
+
 from bench import run
 from zygote_wire import commands, postcard, reports
 from zygote_wire.codes import Refused
 from zygote_wire.frames import LONGEST_PAYLOAD, Frame, Kind
-from zygote_wire.link import Link
+from zygote_wire.link import Link, SessionLost
 from zygote_wire.postcard import varint
 from zygote_wire.reports import Rejected, State
 
@@ -155,3 +157,28 @@ def test_requests_that_cannot_be_read_are_refused_and_the_next_one_is_answered(p
     refused = {answer.id: answer.result.refusal.code for answer in answers if isinstance(answer.result, Rejected)}
     assert refused == {7: Refused.UNREADABLE, 8: Refused.UNREADABLE, 9: Refused.UNREADABLE}
     assert 10 in {answer.id for answer in answers}
+
+
+def test_a_host_that_stops_reading_holds_nothing_up(port, session):
+    link = Link(port, session)
+    link.hello()
+    status = Frame(Kind.DATA, session, 0, payload=postcard.encode(commands.Request(1, commands.Status())))
+    # Telemetry, events and repeated answers pile up in a line that nobody reads, for longer than it has room.
+    end = time.monotonic() + 3
+    while time.monotonic() < end:
+        for _ in range(50):
+            port.send(status)
+        time.sleep(0.05)
+    port.serial.reset_input_buffer()
+    other = Link(port, session ^ 1)
+    other.hello()
+    assert other.status().state == State.IDLE
+
+
+def test_a_session_that_was_replaced_does_not_come_back(link):
+    other = Link(link.port, link.session ^ 1)
+    other.hello()
+    link.hello()
+    with pytest.raises(SessionLost):
+        link.status()
+    assert other.status().state == State.IDLE

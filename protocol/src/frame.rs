@@ -7,6 +7,7 @@
 //! The checksum covers everything before it. A frame is at most 251 bytes, so that COBS adds exactly one.
 
 use crate::crc::crc32;
+use core::hash::{Hash, Hasher};
 use serde::{Deserialize, Serialize};
 
 const HEADER: usize = 7;
@@ -18,7 +19,7 @@ const MAX_RAW: usize = HEADER + MAX_PAYLOAD + CRC;
 pub const MAX_ENCODED: usize = MAX_RAW + 2;
 
 /// What a frame is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FrameKind {
     /// Opens a session.
     Hello,
@@ -124,7 +125,7 @@ pub(crate) fn encode_payload<T: Serialize + ?Sized>(message: &T) -> Option<heapl
 }
 
 /// Collects bytes up to a delimiter and checks them.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Decoder {
     /// A frame without its delimiter.
     buffer: [u8; MAX_ENCODED - 1],
@@ -185,6 +186,14 @@ impl Decoder {
         let kind = FrameKind::from_byte(kind).ok_or(FrameError::UnknownKind)?;
         self.payload_length = payload.len();
         Ok(Header { kind, session: u32::from_le_bytes([s0, s1, s2, s3]), seq, ack })
+    }
+}
+
+/// What a decoder will do next depends on the bytes of the frame that is arriving, not on those of earlier ones.
+impl Hash for Decoder {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.buffer.get(..self.length).unwrap_or_default().hash(state);
+        self.overrun.hash(state);
     }
 }
 

@@ -28,7 +28,7 @@ mod snapshot;
 mod step;
 mod units;
 
-pub use codes::{FaultCode, RefusalCode};
+pub use codes::{Explanation, FaultCode, RefusalCode};
 pub use command::{
     Command, PROGRESS_PER_REPLY, Refusal, Reply, Request, Response, RigId, STEPS_PER_COMMAND, State, Status,
     StepState, peek_request_id,

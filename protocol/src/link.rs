@@ -19,7 +19,8 @@ mod round_trip;
 mod urgent;
 
 use crate::frame::encode_payload;
-use crate::{Decoder, FrameKind, Header, MAX_PAYLOAD, Micros, Millis, encode};
+use crate::{Buffers, Decoder, FrameKind, Header, MAX_PAYLOAD, Micros, Millis, encode};
+use core::hash::{Hash, Hasher};
 use heapless::Vec;
 use outbox::Outbox;
 use round_trip::RoundTrip;
@@ -28,6 +29,8 @@ use urgent::UrgentBox;
 
 /// Data frames under way at once.
 pub const WINDOW: usize = 8;
+/// Sessions that are remembered as replaced.
+const REPLACED: usize = 4;
 /// Something is said at least this often, so that the other end can tell silence from absence.
 const KEEP_ALIVE: Millis = Millis(200);
 /// The session of an urgent frame that belongs to none; no session has this number.
@@ -74,27 +77,33 @@ pub struct LinkCounters {
     pub discarded: u32,
     /// Data frames sent again.
     pub repeated: u32,
+    /// Bytes of payload of the messages that the other end has acknowledged.
+    pub delivered: u32,
 }
 
 /// What the receiving half owes to the other end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Owed {
     Nothing,
     Ack,
     Nack,
 }
 
-/// One end of the link.
-#[derive(Debug)]
+/// One end of the link. Two links of one hash will do the same from now on; counters don't count.
+#[derive(Debug, Clone, Hash)]
 pub struct Link {
     decoder: Decoder,
     half: Half,
 }
 
 /// All of the link but the bytes of the frame that is being looked at.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Half {
     session: Option<u32>,
+    /// Sessions that another one replaced, the latest first; [`NO_SESSION`] where there was none.
+    replaced: [u32; REPLACED],
+    /// Longest payload that the other end takes.
+    longest: usize,
     counters: LinkCounters,
     last_heard: Micros,
     last_said: Micros,
@@ -127,7 +136,9 @@ impl Link {
     pub const fn new(now: Micros) -> Self {
         let half = Half {
             session: None,
-            counters: LinkCounters { good: 0, bad: 0, discarded: 0, repeated: 0 },
+            replaced: [NO_SESSION; REPLACED],
+            longest: MAX_PAYLOAD,
+            counters: LinkCounters { good: 0, bad: 0, discarded: 0, repeated: 0, delivered: 0 },
             last_heard: now,
             last_said: now,
             round_trip: RoundTrip::new(),
@@ -145,6 +156,7 @@ impl Link {
 
     /// Opens a session with nothing under way; one that was open is forgotten.
     pub fn open(&mut self, session: u32, now: Micros) {
+        self.half.remember_replaced(session);
         self.close();
         self.half.session = Some(session);
         self.half.last_heard = now;
@@ -156,10 +168,24 @@ impl Link {
         half.session = None;
         half.round_trip = RoundTrip::new();
         half.outbox.clear();
+        half.longest = MAX_PAYLOAD;
         half.urgent.clear();
         half.telemetry = None;
         half.expected = 0;
         half.owed = Owed::Nothing;
+    }
+
+    /// This session was open once and another one replaced it: a hello of it is an old one that comes late, and
+    /// opening it again would let its commands be executed twice (S11).
+    pub fn was_replaced(&self, session: u32) -> bool {
+        session != NO_SESSION && self.half.replaced.contains(&session)
+    }
+
+    /// Heeds what the other end can take in: frames under way at once, and bytes of payload in one. To be called
+    /// once the session is open, and forgotten with it.
+    pub fn heed(&mut self, buffers: Buffers) {
+        self.half.outbox.narrow(usize::from(buffers.window));
+        self.half.longest = usize::from(buffers.payload).min(MAX_PAYLOAD);
     }
 
     /// The open session.
@@ -174,7 +200,8 @@ impl Link {
 
     /// What the link has seen.
     pub fn counters(&self) -> LinkCounters {
-        LinkCounters { repeated: self.half.outbox.repeats(), ..self.half.counters }
+        let (repeated, delivered) = self.half.outbox.totals();
+        LinkCounters { repeated, delivered, ..self.half.counters }
     }
 
     /// How many more messages [`Self::send`] takes now.
@@ -194,6 +221,9 @@ impl Link {
     pub fn send<T: Serialize + ?Sized>(&mut self, message: &T) -> Result<(), SendError> {
         self.half.session.ok_or(SendError::Closed)?;
         let payload = encode_payload(message).ok_or(SendError::TooLong)?;
+        if payload.len() > self.half.longest {
+            return Err(SendError::TooLong);
+        }
         self.half.outbox.push(payload)
     }
 
@@ -284,6 +314,16 @@ impl Link {
 }
 
 impl Half {
+    /// Another session than the open one is opened: the open one is over for good.
+    fn remember_replaced(&mut self, by: u32) {
+        if let Some(session) = self.session.filter(|session| *session != by) {
+            self.replaced.rotate_right(1);
+            if let Some(latest) = self.replaced.first_mut() {
+                *latest = session;
+            }
+        }
+    }
+
     fn take(&mut self, now: Micros, header: Header, accept: bool) -> Route {
         match header.kind {
             FrameKind::Hello => return Route::Hello,
@@ -302,7 +342,7 @@ impl Half {
         match header.kind {
             FrameKind::Data => self.take_data(header.seq, accept),
             FrameKind::Nack => {
-                self.outbox.go_back_on_request();
+                self.outbox.go_back_on_request(now);
                 Route::Nowhere
             }
             FrameKind::Urgent => self.take_urgent(header),
@@ -418,5 +458,13 @@ impl Half {
         self.owed = Owed::Nothing;
         let session = self.session.unwrap_or(NO_SESSION);
         encode(Header { kind, session, seq: 0, ack: self.expected }, &[], out)
+    }
+}
+
+impl Hash for Half {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.session, self.replaced, self.longest, self.last_heard, self.last_said).hash(state);
+        (&self.round_trip, &self.outbox, &self.urgent, &self.urgent_ack, &self.telemetry).hash(state);
+        (&self.handshake, self.reset, self.expected, self.owed).hash(state);
     }
 }

@@ -21,9 +21,9 @@ const WATCHDOG: Millis = Millis(400);
 
 /// Channels and steps that the simulated board has room for.
 const HEATERS: usize = 256;
-const SERVOS: usize = 256;
-const SPRINGS: usize = 256;
-const STEPS: usize = 512;
+const SERVOS: usize = 192;
+const SPRINGS: usize = 64;
+const STEPS: usize = HEATERS + SERVOS + SPRINGS;
 
 /// The firmware core as the simulated board runs it.
 pub type SimCore = Core<HEATERS, SERVOS, SPRINGS, STEPS>;

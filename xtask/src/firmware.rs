@@ -1,4 +1,5 @@
-//! `cargo xtask firmware`: builds every board, prints its sections, and holds it to its memory.
+//! `cargo xtask firmware`: builds every board, prints its sections, and holds it to its memory;
+//! then the same for codec and link alone (`firmware/link-size`).
 //!
 //! Where rustup has the target, the board is built as usual. Where it hasn't (a machine that cannot fetch one),
 //! Debian's compiler builds the core library from Debian's copy of its source; see
@@ -16,6 +17,9 @@ const TARGET: &str = "thumbv7em-none-eabihf";
 /// A board of half a megabyte of flash is not to need a quarter of it, nor a quarter of its RAM for statics.
 const BUDGET: sections::Budget = sections::Budget { flash: 128 * 1024, ram: 32 * 1024 };
 
+/// What codec and link alone may take of it.
+const LINK_BUDGET: sections::Budget = sections::Budget { flash: 24 * 1024, ram: 6 * 1024 };
+
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_PACKAGES: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "lld"];
@@ -28,18 +32,23 @@ pub(crate) fn run() -> Result<()> {
     for board in boards()? {
         let name =
             board.file_name().and_then(|name| name.to_str()).context("a board's folder isn't UTF-8")?;
-        let target_dir = tools::root().join("target/firmware");
-        let mut build = toolchain.cargo();
-        build.current_dir(&board).args(["build", "--release", "--locked", "--target", TARGET]);
-        tools::run(build.arg("--target-dir").arg(&target_dir))?;
-
-        let elf = target_dir.join(TARGET).join("release").join(format!("zygote-{name}"));
-        let bytes = fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
-        let sections = sections::of(&bytes).with_context(|| format!("cannot read {}", elf.display()))?;
-        println!("\n{name}\n{}", sections::table(&sections, BUDGET));
-        sections::hold_to(&sections, BUDGET).with_context(|| format!("{name} is too large"))?;
+        measure(&toolchain, &board, name, BUDGET)?;
     }
-    Ok(())
+    measure(&toolchain, &tools::root().join("firmware/link-size"), "link-size", LINK_BUDGET)
+}
+
+/// Builds what is in a folder, prints its sections, and holds it to its memory.
+fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::Budget) -> Result<()> {
+    let target_dir = tools::root().join("target/firmware");
+    let mut build = toolchain.cargo();
+    build.current_dir(folder).args(["build", "--release", "--locked", "--target", TARGET]);
+    tools::run(build.arg("--target-dir").arg(&target_dir))?;
+
+    let elf = target_dir.join(TARGET).join("release").join(format!("zygote-{name}"));
+    let bytes = fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
+    let sections = sections::of(&bytes).with_context(|| format!("cannot read {}", elf.display()))?;
+    println!("\n{name}\n{}", sections::table(&sections, budget));
+    sections::hold_to(&sections, budget).with_context(|| format!("{name} is too large"))
 }
 
 /// The folders of the boards, in alphabetical order.

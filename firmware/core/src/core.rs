@@ -62,6 +62,12 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
 {
     /// A core in state Idle, everything off. `before` is what the board kept of the time before its reset.
     pub const fn new(config: Config, now: Micros, before: Option<Snapshot>) -> Self {
+        const {
+            assert!(
+                STEPS >= HEATERS + SERVOS + SPRINGS,
+                "a program has a step a channel at most, and none is streamed"
+            );
+        };
         Self {
             config,
             mode: Mode::Idle,
@@ -171,7 +177,8 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         let Some(hello) = hello else { return };
         let speaks_ours =
             hello.min <= VERSION && hello.current >= VERSION_MIN && hello.schema == schema::hash();
-        if speaks_ours && session != NO_SESSION && self.link.session() != Some(session) {
+        let is_new = self.link.session() != Some(session) && !self.link.was_replaced(session);
+        if speaks_ours && session != NO_SESSION && is_new {
             if self.mode.is_energised() {
                 self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
             }

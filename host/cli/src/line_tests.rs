@@ -1,13 +1,14 @@
 //! Deployments over a line that damages, loses or ends: the real host and the real core with something in between.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 use zygote_controller::{
-    ConnectError, DeployError, Deployment, EventLog, HingeOutcome, Outcome, RunReport, Session, Transport,
-    deploy,
+    ConnectError, DeployError, Deployment, EventLog, HingeOutcome, Outcome, RequestError, RunReport, Session,
+    SessionError, Transport, deploy,
 };
 use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
 use zygote_protocol::{Micros, Millis, State};
@@ -43,16 +44,16 @@ impl BadLine {
 
 impl Transport for BadLine {
     fn now(&self) -> Micros {
-        self.sim.board().now()
+        self.sim.now()
     }
 
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
         let damaged = self.damage(bytes);
-        if self.is_dead() { Ok(()) } else { Transport::send(&mut &mut self.sim, &damaged) }
+        if self.is_dead() { Ok(()) } else { self.sim.send(&damaged) }
     }
 
     fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
-        let count = Transport::receive(&mut &mut self.sim, buffer, deadline)?;
+        let count = self.sim.receive(buffer, deadline)?;
         if self.is_dead() {
             return Ok(0);
         }
@@ -187,4 +188,109 @@ fn a_schedule_on_several_nodes_is_refused_before_anything_is_sent() {
     let said = refused.unwrap_err().to_string();
     assert!(said.contains("the schedule is for 2 nodes (numbers [0, 1] of the rig file)"), "{said}");
     assert_eq!(line.sim.board().core().state(), State::Idle);
+}
+
+/// One port that two programs have opened.
+#[derive(Clone)]
+struct SharedPort(Rc<RefCell<Stage>>);
+
+impl Transport for SharedPort {
+    fn now(&self) -> Micros {
+        self.0.borrow().now()
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.borrow_mut().send(bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
+        self.0.borrow_mut().receive(buffer, deadline)
+    }
+
+    fn name(&self) -> String {
+        "shared port".to_owned()
+    }
+}
+
+#[test]
+fn of_two_hosts_on_one_port_the_first_is_told_that_another_took_over() {
+    let (rig, schedule) = job();
+    let port = SharedPort(Rc::new(RefCell::new(line(&rig, &schedule, CLEAN, NEVER).sim)));
+    let mut first = Session::connect(port.clone(), 9, Millis(5_000)).unwrap();
+    first.status().unwrap();
+    let mut second = Session::connect(port, 10, Millis(5_000)).unwrap();
+    assert!(matches!(first.status(), Err(RequestError::Session(SessionError::Forgotten { .. }))));
+    assert_eq!(second.status().unwrap().state, State::Idle);
+}
+
+/// A host whose clock runs faster than the simulated board's.
+struct FastClock {
+    sim: Stage,
+    ppm: u64,
+}
+
+impl Transport for FastClock {
+    fn now(&self) -> Micros {
+        let board = self.sim.now().0;
+        Micros(7_000_000 + board + board * self.ppm / 1_000_000)
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.sim.send(bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
+        let left = Micros(deadline.since(self.now()));
+        let until = Micros(self.sim.now().0 + left.0.max(1));
+        self.sim.receive(buffer, until)
+    }
+
+    fn name(&self) -> String {
+        "fast clock".to_owned()
+    }
+}
+
+#[test]
+fn the_log_tells_events_in_host_time_and_the_report_the_rate_of_the_clock() {
+    let (rig, schedule) = job();
+    let host = FastClock { sim: line(&rig, &schedule, CLEAN, NEVER).sim, ppm: 200 };
+    let mut session = Session::connect(host, 9, Millis(5_000)).unwrap();
+    let log = Rc::new(RefCell::new(Vec::new()));
+    let mut event_log = EventLog::new(SharedSink(Rc::clone(&log)));
+    let deployment = Deployment {
+        schedule: &schedule,
+        rig: &rig,
+        run: 1,
+        clear: false,
+        open: &BTreeSet::new(),
+        interrupted: &|| false,
+    };
+    let report = deploy(&mut session, &deployment, &mut event_log, &mut |_| {}).unwrap();
+    let clock = report.clock.unwrap();
+    assert!((clock.rate_ppm + 200.0).abs() < 2.0 && clock.residual_us < 100.0, "{clock:?}");
+    let lines = String::from_utf8(log.borrow().clone()).unwrap();
+    let events: Vec<serde_json::Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .filter(|line: &serde_json::Value| line["kind"] == "opened")
+        .collect();
+    assert_eq!(events.len(), schedule.steps.len());
+    for event in events {
+        // The simulated line takes no time: an event is heard within the board's tick of its happening.
+        let late = event["host_us"].as_i64().unwrap() - event["at_host_us"].as_i64().unwrap();
+        assert!((-100..=6_000).contains(&late), "{late} us: {event}");
+    }
+}
+
+/// A log that can be read afterwards.
+struct SharedSink(Rc<RefCell<Vec<u8>>>);
+
+impl io::Write for SharedSink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, export, fold_back, net, picture, plan, reconfigure, rehearse,
-    schedule, sequence, sim, table, tolerance, torque,
+    alternatives, assembly, check, deploy, explain, export, fold_back, link, net, picture, plan, reconfigure,
+    rehearse, schedule, sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -42,6 +42,10 @@ pub(crate) enum Verb {
     Deploy(deploy::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
+    /// Measure the line to a board
+    Link(link::Arguments),
+    /// Tell what a refusal or fault code means, and what to do
+    Explain(explain::Arguments),
     /// Serve a simulated board on a pseudo-terminal
     Sim(sim::Arguments),
 }
@@ -58,6 +62,8 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Link(arguments) => link::run(&arguments),
+            Self::Explain(arguments) => explain::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),

@@ -93,6 +93,7 @@ pub(crate) fn shake_hands<T: Transport>(
                 {
                     let info = understand(&line, payload)?;
                     link.open(number, now);
+                    link.heed(info.buffers);
                     return Ok(info);
                 }
             }

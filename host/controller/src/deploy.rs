@@ -1,9 +1,10 @@
 //! Deploys a schedule: upload, check, arm, start, watch, and report whatever happens.
 
 use crate::event_log::{EventLog, Record};
+use crate::inbox::Notice;
 use crate::program::{self, ProgramError};
 use crate::report::{Outcome, RunReport, complete};
-use crate::session::{Notice, RequestError, Session, SessionError};
+use crate::session::{RequestError, Session, SessionError};
 use crate::{MotionState, Transport};
 use std::collections::BTreeSet;
 use zygote_deployment::{Fitting, Rig, RigError, Schedule};
@@ -215,6 +216,7 @@ impl Watch<'_> {
                 Err(error) => return self.lost(session.now(), &error),
             };
             let now = session.now();
+            self.log.follow(session.clock().fit());
             match notice {
                 None => {}
                 Some(Notice::Event(event)) => self.take_event(now, &event),
@@ -348,7 +350,7 @@ impl Watch<'_> {
         if let (Some(started), Some(ended)) = (self.started, self.ended) {
             self.report.duration_s = seconds(ended.since(started));
         }
-        self.report.finish(outcome, session.link_counters());
+        self.report.finish(outcome, session.link_counters(), session.clock().fit());
         self.report
     }
 

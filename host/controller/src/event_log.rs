@@ -1,8 +1,10 @@
 //! The event log of a run: one JSON object a line, in the order of arrival.
 //!
 //! Every record has `host_us` (this program's clock, from the start of the log) and `kind`; what the MCU tells also
-//! has `mcu_us` (its clock, from its boot).
+//! has `mcu_us` (its clock, from its boot) and, once its clock is known, `at_host_us`: when that was by this program's
+//! clock, from the start of the log.
 
+use crate::ClockFit;
 use serde::Serialize;
 use std::io::{self, Write};
 use zygote_protocol::Micros;
@@ -107,9 +109,37 @@ pub enum Record {
     },
 }
 
+impl Record {
+    /// When it happened, for what the MCU tells.
+    fn mcu_us(&self) -> Option<Micros> {
+        match self {
+            Self::State { mcu_us, .. }
+            | Self::Started { mcu_us, .. }
+            | Self::Opened { mcu_us, .. }
+            | Self::Done { mcu_us, .. }
+            | Self::Fault { mcu_us, .. }
+            | Self::Telemetry { mcu_us, .. } => Some(Micros(*mcu_us)),
+            Self::Connected { .. }
+            | Self::Uploaded { .. }
+            | Self::StopRequested
+            | Self::StopConfirmed { .. }
+            | Self::Lost { .. } => None,
+        }
+    }
+}
+
+/// Host time of an MCU time from the start of the log, us; negative for what happened before.
+#[expect(clippy::cast_possible_truncation, reason = "2^53 us are 285 years")]
+#[expect(clippy::cast_precision_loss, reason = "so are 2^53 us of host time")]
+fn since_start(clock: ClockFit, mcu: Micros, start: Micros) -> i64 {
+    (clock.host_from_mcu(mcu) - start.0 as f64).round() as i64
+}
+
 #[derive(Serialize)]
 struct Line<'a> {
     host_us: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_host_us: Option<i64>,
     #[serde(flatten)]
     record: &'a Record,
 }
@@ -118,13 +148,19 @@ struct Line<'a> {
 pub struct EventLog {
     sink: Box<dyn Write>,
     start: Option<Micros>,
+    clock: Option<ClockFit>,
     error: Option<io::Error>,
 }
 
 impl EventLog {
     /// A log into `sink`, flushed after every line.
     pub fn new(sink: impl Write + 'static) -> Self {
-        Self { sink: Box::new(sink), start: None, error: None }
+        Self { sink: Box::new(sink), start: None, clock: None, error: None }
+    }
+
+    /// From now on, tells host times by this clock.
+    pub fn follow(&mut self, clock: Option<ClockFit>) {
+        self.clock = clock;
     }
 
     /// Adds a record.
@@ -133,7 +169,8 @@ impl EventLog {
         if self.error.is_some() {
             return;
         }
-        self.error = self.write(&Line { host_us: now.since(start), record }).err();
+        let at_host_us = self.clock.zip(record.mcu_us()).map(|(clock, mcu)| since_start(clock, mcu, start));
+        self.error = self.write(&Line { host_us: now.since(start), at_host_us, record }).err();
     }
 
     fn write(&mut self, line: &Line<'_>) -> io::Result<()> {

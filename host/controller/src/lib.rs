@@ -8,10 +8,13 @@
 //!
 //! The MCU executes a run by itself; what stands here carries the program there and brings the news back.
 
+mod clock;
 mod connect;
 mod deploy;
 mod estimate;
 mod event_log;
+mod inbox;
+mod link_bench;
 mod program;
 mod report;
 mod resume;
@@ -19,13 +22,16 @@ mod serial;
 mod session;
 mod transport;
 
+pub use clock::{Clock, ClockFit, Exchange};
 pub use connect::ConnectError;
 pub use deploy::{DeployError, Deployment, Progress, deploy};
 pub use estimate::MotionState;
 pub use event_log::{EventLog, Record};
+pub use inbox::Notice;
+pub use link_bench::{LinkFigures, link_bench};
 pub use program::{ProgramError, limits, program};
 pub use report::{HingeOutcome, HingeReport, Outcome, RunReport};
 pub use resume::{EarlierRun, ResumeError};
 pub use serial::{SerialError, SerialTransport};
-pub use session::{Notice, RequestError, Session, SessionError};
+pub use session::{RequestError, Session, SessionError};
 pub use transport::Transport;

@@ -1,5 +1,6 @@
 //! What came of a run (S12): which hinges moved, which didn't, why, and what to do next.
 
+use crate::ClockFit;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use zygote_deployment::{Direction, Kind, Schedule};
@@ -80,6 +81,8 @@ pub struct RunReport {
     pub damaged_frames: u32,
     /// See `damaged_frames`.
     pub repeated_frames: u32,
+    /// The MCU's clock against the host's; none when the MCU never told its time.
+    pub clock: Option<ClockFit>,
     /// What to do now.
     pub next: String,
 }
@@ -114,6 +117,7 @@ impl RunReport {
             hinges,
             damaged_frames: 0,
             repeated_frames: 0,
+            clock: None,
             next: String::new(),
         }
     }
@@ -137,7 +141,8 @@ impl RunReport {
     }
 
     /// Ends the report.
-    pub(crate) fn finish(&mut self, outcome: Outcome, counters: LinkCounters) {
+    pub(crate) fn finish(&mut self, outcome: Outcome, counters: LinkCounters, clock: Option<ClockFit>) {
+        self.clock = clock;
         self.damaged_frames = counters.bad;
         self.repeated_frames = counters.repeated;
         self.next = advice(&outcome, self.count(HingeOutcome::Interrupted));
@@ -211,6 +216,12 @@ impl fmt::Display for RunReport {
         let peak = self.hinges.iter().filter_map(|hinge| hinge.peak_c).fold(f64::NEG_INFINITY, f64::max);
         if peak.is_finite() {
             writeln!(f, "hottest hinge: {peak:.1} °C")?;
+        }
+        if let Some(ClockFit { rate_ppm, residual_us, exchanges, .. }) = self.clock {
+            writeln!(
+                f,
+                "MCU clock: {rate_ppm:+.1} ppm, residual {residual_us:.0} us ({exchanges} readings)"
+            )?;
         }
         write!(f, "next: {}", self.next)
     }

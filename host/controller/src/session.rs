@@ -1,16 +1,21 @@
 //! A session with one MCU: requests with their responses, and the news in between. `connect` opens it.
 
 use crate::Transport;
+use crate::clock::Clock;
 use crate::connect::{self, ConnectError, transmit};
-use std::collections::{BTreeMap, VecDeque};
+use crate::inbox::{Broken, Inbox, Notice};
 use std::io;
 use zygote_protocol::{
-    Command, Event, Fault, HelloReply, Link, LinkCounters, Micros, Millis, Received, Refusal, Reply, Report,
-    Request, Response, SendError, Snapshot, Status, Telemetry, Urgent, decode_payload,
+    Command, HelloReply, Link, LinkCounters, Micros, Millis, Refusal, Reply, Request, SendError, Snapshot,
+    Status, Urgent,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
 const SILENCE: Millis = Millis(2_000);
+/// The session asks for the MCU's time so often.
+const PROBE_EVERY: Millis = Millis(1_000);
+/// Room in the link that commands leave free.
+const ROOM_TO_SPARE: usize = 2;
 
 /// Why a session ended.
 #[derive(Debug, thiserror::Error)]
@@ -30,6 +35,16 @@ pub enum SessionError {
     Forgotten {
         /// The line.
         line: String,
+    },
+    /// A command that the MCU has no room for in a frame.
+    #[error("{line}: the command `{command}` is longer than the MCU takes in one frame ({longest} bytes)")]
+    TooLong {
+        /// The line.
+        line: String,
+        /// The command's name.
+        command: &'static str,
+        /// Most bytes of payload.
+        longest: u16,
     },
     /// The MCU sent a message that this program can't read.
     #[error("{line}: a message of {length} bytes passed its checksum but can't be read")]
@@ -72,17 +87,6 @@ pub enum RequestError {
     Session(#[from] SessionError),
 }
 
-/// News from the MCU.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Notice {
-    /// Something happened.
-    Event(Event),
-    /// Everything was turned off.
-    Fault(Fault),
-    /// A look at the rig.
-    Telemetry(Telemetry),
-}
-
 /// An open session.
 pub struct Session<T> {
     transport: T,
@@ -90,9 +94,9 @@ pub struct Session<T> {
     number: u32,
     info: HelloReply,
     next_id: u16,
-    responses: BTreeMap<u16, Result<Reply, Refusal>>,
-    notices: VecDeque<Notice>,
-    last_fault: Option<Fault>,
+    inbox: Inbox,
+    /// When this session asks for the MCU's time again.
+    next_probe: Micros,
 }
 
 impl<T: Transport> Session<T> {
@@ -103,8 +107,8 @@ impl<T: Transport> Session<T> {
     pub fn connect(mut transport: T, number: u32, patience: Millis) -> Result<Self, ConnectError> {
         let mut link = Link::new(transport.now());
         let info = connect::shake_hands(&mut transport, &mut link, number, patience)?;
-        let (responses, notices) = (BTreeMap::new(), VecDeque::new());
-        Ok(Self { transport, link, number, info, next_id: 0, responses, notices, last_fault: None })
+        let next_probe = transport.now();
+        Ok(Self { transport, link, number, info, next_id: 0, inbox: Inbox::default(), next_probe })
     }
 
     /// What the MCU said about itself.
@@ -115,6 +119,11 @@ impl<T: Transport> Session<T> {
     /// Time on this side.
     pub fn now(&self) -> Micros {
         self.transport.now()
+    }
+
+    /// The MCU's clock as seen from here.
+    pub fn clock(&self) -> &Clock {
+        self.inbox.clock()
     }
 
     /// What the link has seen.
@@ -137,14 +146,52 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// The session ended.
     pub fn submit(&mut self, command: Command) -> Result<u16, SessionError> {
-        let id = self.next_id;
-        self.next_id = self.next_id.wrapping_add(1);
+        let id = self.take_id();
         let request = Request { id, command };
-        while self.link.send(&request) == Err(SendError::Full) {
-            let soon = self.transport.now().plus(SILENCE);
-            self.pump(soon)?;
+        loop {
+            // The MCU's answers and events share a window like this one: commands that fill it would be turned away.
+            // What is heard meanwhile needs no acknowledgement of its own: the command carries it.
+            while self.link.room() <= ROOM_TO_SPARE {
+                let soon = self.transport.now().plus(SILENCE);
+                self.hear(soon)?;
+            }
+
+            match self.link.send(&request) {
+                Ok(()) => break,
+                Err(SendError::Full) => {}
+
+                Err(SendError::TooLong) => {
+                    let (line, longest) = (self.transport.name(), self.info.buffers.payload);
+                    return Err(SessionError::TooLong { line, command: name_of(&request.command), longest });
+                }
+                Err(SendError::Closed) => {
+                    return Err(SessionError::Forgotten { line: self.transport.name() });
+                }
+            }
+        }
+        if matches!(request.command, Command::Status) {
+            self.inbox.expect_time(id, self.transport.now(), false);
         }
         Ok(id)
+    }
+
+    fn take_id(&mut self) -> u16 {
+        let id = self.next_id;
+        self.next_id = self.next_id.wrapping_add(1);
+        id
+    }
+
+    /// Asks for the MCU's time now and then, while there is room to spare and one question is open at most.
+    fn probe(&mut self) {
+        let now = self.transport.now();
+        if now < self.next_probe || self.inbox.is_probing() || self.link.room() <= ROOM_TO_SPARE {
+            return;
+        }
+        let id = self.take_id();
+        if self.link.send(&Request { id, command: Command::Status }).is_ok() {
+            self.inbox.expect_time(id, now, true);
+            self.next_probe = now.plus(PROBE_EVERY);
+        }
     }
 
     /// Waits for the response to a submitted command.
@@ -153,7 +200,7 @@ impl<T: Transport> Session<T> {
     /// The session ended.
     pub fn response(&mut self, id: u16) -> Result<Result<Reply, Refusal>, SessionError> {
         loop {
-            if let Some(result) = self.responses.remove(&id) {
+            if let Some(result) = self.inbox.response(id) {
                 return Ok(result);
             }
             let soon = self.transport.now().plus(SILENCE);
@@ -205,11 +252,11 @@ impl<T: Transport> Session<T> {
         // 0 is no session.
         let number = self.number.checked_add(1).unwrap_or(1);
         self.link = Link::new(self.transport.now());
-        self.info = connect::shake_hands(&mut self.transport, &mut self.link, number, patience)?;
+        let info = connect::shake_hands(&mut self.transport, &mut self.link, number, patience)?;
+        // An MCU that was reset has started its clock anew.
+        self.inbox.restart(info.identity.boot == self.info.identity.boot);
+        self.info = info;
         self.number = number;
-        self.responses.clear();
-        self.notices.clear();
-        self.last_fault = None;
         Ok(())
     }
 
@@ -219,7 +266,7 @@ impl<T: Transport> Session<T> {
     /// The session ended.
     pub fn notice(&mut self, deadline: Micros) -> Result<Option<Notice>, SessionError> {
         loop {
-            if let Some(notice) = self.notices.pop_front() {
+            if let Some(notice) = self.inbox.notice() {
                 return Ok(Some(notice));
             }
             if self.transport.now() >= deadline {
@@ -244,66 +291,44 @@ impl<T: Transport> Session<T> {
         Ok(Micros(self.transport.now().since(asked)))
     }
 
-    /// Sends what is due, waits for bytes until `deadline` or until something more is due, takes what came.
+    /// Sends what is due, waits for bytes until `deadline` or until something more is due, takes what came, and
+    /// acknowledges it: perhaps nobody asks this session for anything for a while.
     fn pump(&mut self, deadline: Micros) -> Result<(), SessionError> {
-        let broken = |line, source| SessionError::Line { line, source };
+        self.hear(deadline)?;
+        self.speak()
+    }
+
+    fn speak(&mut self) -> Result<(), SessionError> {
         let sent = transmit(&mut self.transport, &mut self.link);
-        sent.map_err(|source| broken(self.transport.name(), source))?;
+        sent.map_err(|source| SessionError::Line { line: self.transport.name(), source })
+    }
+
+    /// Sends what is due, waits for bytes until `deadline` or until something more is due, and takes what came.
+    fn hear(&mut self, deadline: Micros) -> Result<(), SessionError> {
+        self.probe();
+        self.speak()?;
+
         let wake = self.link.poll_timeout(self.transport.now()).map_or(deadline, |due| due.min(deadline));
         let mut buffer = [0; 1024];
         let received = self.transport.receive(&mut buffer, wake);
-        let count = received.map_err(|source| broken(self.transport.name(), source))?;
+        let count = received.map_err(|source| SessionError::Line { line: self.transport.name(), source })?;
         let now = self.transport.now();
         let mut bytes = buffer.get(..count).unwrap_or_default();
         while let Some(received) = self.link.receive(now, &mut bytes, true) {
-            let taken = match received {
-                Received::Message(payload) => {
-                    take_report(payload, &mut self.responses, &mut self.notices).ok_or(payload.len())
+            let taken = self.inbox.take(now, received);
+            taken.map_err(|broken| match broken {
+                Broken::Forgotten => SessionError::Forgotten { line: self.transport.name() },
+                Broken::Unreadable(length) => {
+                    SessionError::Unreadable { line: self.transport.name(), length }
                 }
-                Received::Urgent(payload) => {
-                    take_fault(payload, &mut self.last_fault, &mut self.notices).ok_or(payload.len())
-                }
-                Received::Telemetry(payload) => {
-                    let telemetry = decode_payload(payload).ok_or(payload.len());
-                    telemetry.map(|telemetry| self.notices.push_back(Notice::Telemetry(telemetry)))
-                }
-                Received::Reset => return Err(SessionError::Forgotten { line: self.transport.name() }),
-                // A late answer to a repeated hello; an MCU sends no hello of its own.
-                Received::HelloReply(..) | Received::Hello(..) => Ok(()),
-            };
-            taken.map_err(|length| SessionError::Unreadable { line: self.transport.name(), length })?;
+            })?;
         }
         let silent = now.since(self.link.last_heard());
         if silent > SILENCE.to_micros() {
             return Err(SessionError::Silent { line: self.transport.name(), silent_ms: silent / 1000 });
         }
-        let sent = transmit(&mut self.transport, &mut self.link);
-        sent.map_err(|source| broken(self.transport.name(), source))
+        Ok(())
     }
-}
-
-fn take_report(
-    payload: &[u8],
-    responses: &mut BTreeMap<u16, Result<Reply, Refusal>>,
-    notices: &mut VecDeque<Notice>,
-) -> Option<()> {
-    match decode_payload(payload)? {
-        Report::Response(Response { id, result }) => {
-            responses.insert(id, result);
-        }
-        Report::Event(event) => notices.push_back(Notice::Event(event)),
-    }
-    Some(())
-}
-
-/// Urgent messages may come more than once; a fault is told once.
-fn take_fault(payload: &[u8], last: &mut Option<Fault>, notices: &mut VecDeque<Notice>) -> Option<()> {
-    let fault: Fault = decode_payload(payload)?;
-    if *last != Some(fault) {
-        *last = Some(fault);
-        notices.push_back(Notice::Fault(fault));
-    }
-    Some(())
 }
 
 fn name_of(command: &Command) -> &'static str {

@@ -104,7 +104,7 @@ impl Stage {
     }
 
     /// Takes bytes from the host.
-    pub(crate) fn send(&mut self, bytes: &[u8]) -> Result<(), PlantError> {
+    pub(crate) fn take_from_host(&mut self, bytes: &[u8]) -> Result<(), PlantError> {
         if self.tape.len() + bytes.len() <= MOST_REPLAYED {
             self.tape.extend_from_slice(bytes);
         }

@@ -5,14 +5,14 @@ use std::io;
 use zygote_controller::Transport;
 use zygote_protocol::Micros;
 
-impl Transport for &mut Stage {
+impl Transport for Stage {
     fn now(&self) -> Micros {
         self.board().now()
     }
 
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.alive()?;
-        Stage::send(self, bytes).map_err(io::Error::other)
+        self.take_from_host(bytes).map_err(io::Error::other)
     }
 
     fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
@@ -29,6 +29,25 @@ impl Transport for &mut Stage {
 
     fn name(&self) -> String {
         "simulator".to_owned()
+    }
+}
+
+/// Borrowed, so that the stage is still there when a session ends or none comes about.
+impl Transport for &mut Stage {
+    fn now(&self) -> Micros {
+        Transport::now(&**self)
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        Transport::send(*self, bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], deadline: Micros) -> io::Result<usize> {
+        Transport::receive(*self, buffer, deadline)
+    }
+
+    fn name(&self) -> String {
+        Transport::name(&**self)
     }
 }
 

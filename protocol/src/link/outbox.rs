@@ -3,9 +3,10 @@
 use super::round_trip::RoundTrip;
 use super::{Payload, SendError, WINDOW};
 use crate::Micros;
+use core::hash::{Hash, Hasher};
 use heapless::Deque;
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Hash)]
 struct Packet {
     payload: Payload,
     /// When it went out last.
@@ -14,43 +15,66 @@ struct Packet {
     repeated: bool,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Outbox {
     window: Deque<Packet, WINDOW>,
+    /// How many packets the other end takes at once, 1 to [`WINDOW`].
+    most: usize,
     /// Number of the oldest packet.
     oldest: u8,
     /// How many packets, from the oldest on, are out; the rest waits its turn.
     out: usize,
-    /// The oldest packet has been gone back to on request; further requests mean the same loss.
-    gone_back: bool,
+    /// The oldest packet has been gone back to on request, and so many further requests mean the same loss: one for each
+    /// packet that was out behind it, which the other end can't take.
+    gone_back: Option<usize>,
+    /// When the other end last said something that tells of the packets out: it is no time yet to think them lost.
+    heard: Micros,
     repeats: u32,
+    delivered: u32,
 }
 
 impl Outbox {
     pub(super) const fn new() -> Self {
-        Self { window: Deque::new(), oldest: 0, out: 0, gone_back: false, repeats: 0 }
+        Self {
+            window: Deque::new(),
+            most: WINDOW,
+            oldest: 0,
+            out: 0,
+            gone_back: None,
+            heard: Micros(0),
+            repeats: 0,
+            delivered: 0,
+        }
     }
 
     pub(super) fn clear(&mut self) {
-        let repeats = self.repeats;
-        *self = Self { repeats, ..Self::new() };
+        let (repeats, delivered) = self.totals();
+        *self = Self { repeats, delivered, ..Self::new() };
     }
 
     pub(super) fn room(&self) -> usize {
-        WINDOW - self.window.len()
+        self.most.saturating_sub(self.window.len())
+    }
+
+    /// From now on at most so many packets are under way; one at least, and never more than [`WINDOW`].
+    pub(super) fn narrow(&mut self, most: usize) {
+        self.most = most.clamp(1, WINDOW);
     }
 
     pub(super) fn is_empty(&self) -> bool {
         self.window.is_empty()
     }
 
-    /// Packets sent again so far.
-    pub(super) fn repeats(&self) -> u32 {
-        self.repeats
+    /// Packets sent again, and bytes of payload acknowledged, so far.
+    pub(super) fn totals(&self) -> (u32, u32) {
+        (self.repeats, self.delivered)
     }
 
     /// Takes a packet.
     pub(super) fn push(&mut self, payload: Payload) -> Result<(), SendError> {
+        if self.room() == 0 {
+            return Err(SendError::Full);
+        }
         let packet = Packet { payload, sent: None, repeated: false };
         self.window.push_back(packet).map_err(|_| SendError::Full)
     }
@@ -61,22 +85,31 @@ impl Outbox {
         if count == 0 || count > self.window.len() {
             return;
         }
-        round_trip.progressed();
+
         for _ in 0..count {
-            if let Some(Packet { sent: Some(sent), repeated: false, .. }) = self.window.pop_front() {
+            let Some(packet) = self.window.pop_front() else { break };
+            let length = u32::try_from(packet.payload.len()).unwrap_or(u32::MAX);
+            self.delivered = self.delivered.wrapping_add(length);
+            if let (Some(sent), false) = (packet.sent, packet.repeated) {
                 round_trip.measured(now.since(sent));
             }
         }
         self.oldest = ack;
         self.out = self.out.saturating_sub(count);
-        self.gone_back = false;
+        self.gone_back = None;
+        self.heard = now;
     }
 
     /// The other end misses what follows its last acknowledgement.
-    pub(super) fn go_back_on_request(&mut self) {
-        if !self.gone_back {
-            self.gone_back = true;
-            self.out = 0;
+    pub(super) fn go_back_on_request(&mut self, now: Micros) {
+        self.heard = now;
+        match &mut self.gone_back {
+            Some(same) if *same > 0 => *same -= 1,
+            // The first request, or one more than the packets behind explain: the repetition is lost as well.
+            None | Some(_) => {
+                self.gone_back = Some(self.out.saturating_sub(1));
+                self.out = 0;
+            }
         }
     }
 
@@ -85,14 +118,15 @@ impl Outbox {
         if self.deadline(round_trip).is_some_and(|deadline| now >= deadline) {
             round_trip.timed_out();
             self.out = 0;
-            self.gone_back = false;
+            self.gone_back = None;
         }
     }
 
     /// When the oldest packet is to be sent again; `None` while none is out.
     fn deadline(&self, round_trip: &RoundTrip) -> Option<Micros> {
         let oldest = self.window.front().filter(|_| self.out > 0)?;
-        oldest.sent.map(|sent| round_trip.deadline(sent))
+        // From the last sign of life on (RFC 6298, 5.3): a full window takes longer than one packet.
+        oldest.sent.map(|sent| round_trip.deadline(sent.max(self.heard)))
     }
 
     /// When something is to be sent: at once, at a deadline, or not at all.
@@ -111,5 +145,13 @@ impl Outbox {
         }
         packet.sent = Some(now);
         Some((self.oldest.wrapping_add(offset), &packet.payload))
+    }
+}
+
+/// What an outbox will do next doesn't depend on its totals.
+impl Hash for Outbox {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.window.iter().for_each(|packet| packet.hash(state));
+        (self.window.len(), self.most, self.oldest, self.out, self.gone_back, self.heard).hash(state);
     }
 }

@@ -7,7 +7,7 @@ const INITIAL_US: u64 = 300_000;
 const SHORTEST_US: u64 = 30_000;
 const LONGEST_US: u64 = 1_000_000;
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Hash)]
 pub(super) struct RoundTrip {
     /// Smoothed time and its mean deviation.
     smoothed: Option<(u64, u64)>,
@@ -28,14 +28,10 @@ impl RoundTrip {
         });
     }
 
-    /// A packet timed out: wait twice as long for the next.
+    /// A packet timed out: wait twice as long for the next, until one that went out once is acknowledged. Nothing less
+    /// ends it: on a line slower than the timeout, everything would go out twice forever.
     pub(super) fn timed_out(&mut self) {
         self.backoff = (self.backoff + 1).min(6);
-    }
-
-    /// Something new was acknowledged, though perhaps of a packet sent twice.
-    pub(super) fn progressed(&mut self) {
-        self.backoff = 0;
     }
 
     fn timeout_us(&self) -> u64 {

@@ -3,19 +3,20 @@
 use super::round_trip::RoundTrip;
 use super::{Payload, SendError};
 use crate::Micros;
+use core::hash::{Hash, Hasher};
 use heapless::Deque;
 
 /// Urgent messages that may wait for their acknowledgement.
 const ROOM: usize = 4;
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Hash)]
 struct Packet {
     seq: u8,
     payload: Payload,
     sent: Option<Micros>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct UrgentBox {
     waiting: Deque<Packet, ROOM>,
     next_seq: u8,
@@ -61,5 +62,12 @@ impl UrgentBox {
         let packet = self.waiting.front_mut()?;
         packet.sent = Some(now);
         Some((packet.seq, &packet.payload))
+    }
+}
+
+impl Hash for UrgentBox {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.waiting.iter().for_each(|packet| packet.hash(state));
+        (self.waiting.len(), self.next_seq).hash(state);
     }
 }
