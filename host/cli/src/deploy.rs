@@ -101,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stops = stage.user_stops();
     let ran = run_on(arguments, &mut stage, SIMULATED, &rig, &schedule, &open, &|| stops.get());
     let ending = match ran {
-        Ok((report, _)) => Ending::Report(report),
+        Ok((report, _)) => Ending::Report(Box::new(report)),
         Err(Failure::Failed(error)) => Ending::Refused(format!("{error:#}")),
         Err(bad_input @ Failure::BadInput(_)) => return Err(bad_input),
     };

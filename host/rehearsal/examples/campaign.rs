@@ -44,7 +44,9 @@ fn run(options: &[String]) -> Result<bool, Box<dyn std::error::Error>> {
     println!("{:.1} s on {threads} threads", start.elapsed().as_secs_f64());
     for failure in summary.failures.iter().take(SHOWN) {
         println!("\n--replay {seed}:{} (fingerprint {:016x})", failure.number, failure.fingerprint);
-        failure.breaches.iter().for_each(|breach| println!("  {breach}"));
+        for breach in &failure.breaches {
+            println!("  {breach}");
+        }
     }
     Ok(summary.failures.is_empty())
 }
@@ -54,9 +56,13 @@ fn replay(trial: &str) -> Result<bool, Box<dyn std::error::Error>> {
     let (trial, rehearsed, breaches) = campaign::replay(seed.parse()?, number.parse()?, true)?;
     println!("{:#?}", trial.schedule.steps);
     println!("{:#?}\n{:#?}\n{:#?}", trial.plant, trial.causes, trial.line);
-    rehearsed.witness.log().iter().for_each(|line| println!("{line}"));
+    for line in rehearsed.witness.log() {
+        println!("{line}");
+    }
     println!("{:#?}", rehearsed.ending);
     println!("fingerprint {:016x}", campaign::fingerprint(&rehearsed));
-    breaches.iter().for_each(|breach| println!("broken: {breach}"));
+    for breach in &breaches {
+        println!("broken: {breach}");
+    }
     Ok(breaches.is_empty())
 }

@@ -51,7 +51,7 @@ pub struct Trial {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
     /// With a report.
-    Report(RunReport),
+    Report(Box<RunReport>),
     /// Nothing was started.
     Refused(String),
     /// It was killed.
@@ -103,7 +103,7 @@ impl Trial {
                     interrupted: &|| stop.get(),
                 };
                 match deploy(&mut session, &deployment, &mut EventLog::new(io::sink()), &mut |_| {}) {
-                    Ok(report) => Ending::Report(report),
+                    Ok(report) => Ending::Report(Box::new(report)),
                     Err(error) => Ending::Refused(error.to_string()),
                 }
             }

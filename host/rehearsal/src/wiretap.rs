@@ -19,13 +19,11 @@ impl Wiretap {
         while let Some(frame) = self.decoder.next(&mut bytes) {
             let Ok(header) = frame else { continue };
             match header.kind {
-                FrameKind::Hello => {
-                    if self.session != Some(header.session) {
-                        self.session = Some(header.session);
-                        self.last_frame = Some(now);
-                    }
+                FrameKind::Hello if self.session != Some(header.session) => {
+                    self.session = Some(header.session);
+                    self.last_frame = Some(now);
                 }
-                FrameKind::HelloReply | FrameKind::Reset => {}
+                FrameKind::Hello | FrameKind::HelloReply | FrameKind::Reset => {}
                 _ if self.session == Some(header.session) => self.last_frame = Some(now),
                 _ => {}
             }

@@ -5,6 +5,7 @@ use crate::wiretap::Wiretap;
 use zygote_deployment::{Kind, Schedule};
 use zygote_protocol::{Fault, Micros, Millis, State, StepState};
 use zygote_sim::Board;
+use zygote_sim::plant::{ServoHinge, SpringHinge};
 
 /// A hinge is at its angle within this, degrees.
 pub const ANGLE_TOLERANCE_DEG: f64 = 1.0;
@@ -166,8 +167,8 @@ impl Witness {
                     }
                     sma.angle_deg()
                 }),
-                Kind::Servo => plant.servo_hinges().get(hinge.channel).map(|servo| servo.angle_deg()),
-                Kind::Spring => plant.spring_hinges().get(hinge.channel).map(|spring| spring.angle_deg()),
+                Kind::Servo => plant.servo_hinges().get(hinge.channel).map(ServoHinge::angle_deg),
+                Kind::Spring => plant.spring_hinges().get(hinge.channel).map(SpringHinge::angle_deg),
             };
             hinge.angle_deg = angle.unwrap_or(f64::NAN);
         }

@@ -72,8 +72,7 @@ fn deadline(witness: &Witness, at: Micros, what: &What) -> Option<(&'static str,
         }
         What::Reset(_) => Some(("S1", at)),
         What::Hang(_) => Some(("S9", at.plus(WATCHDOG))),
-        What::StopButton(true) => Some(("S8", at.plus(STOP))),
-        What::StopFrame => Some(("S8", at.plus(STOP))),
+        What::StopButton(true) | What::StopFrame => Some(("S8", at.plus(STOP))),
         What::SecondHost => Some(("S2", at.plus(STOP))),
         What::Break(_)
         | What::StopButton(false)

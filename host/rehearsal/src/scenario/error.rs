@@ -65,6 +65,6 @@ pub enum ScenarioError {
         file: String,
         /// Why.
         #[source]
-        source: BoardError,
+        source: Box<BoardError>,
     },
 }

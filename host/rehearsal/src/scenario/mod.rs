@@ -77,7 +77,7 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// The scenario files of a folder and of its folders, or the one file that a path names; in the order of their names.
+    /// The scenario files of a folder, or the one file that a path names; in the order of their names.
     ///
     /// # Errors
     /// [`ScenarioError`] for the first that can't be used.
@@ -135,7 +135,7 @@ impl Scenario {
     /// [`ScenarioError`], for a hinge that the schedule doesn't have among others.
     pub fn trial_of(&self, rig: Rig, schedule: Schedule) -> Result<Trial, ScenarioError> {
         let plant = board::plant(&rig, Some(&schedule))
-            .map_err(|source| ScenarioError::Board { file: self.file.clone(), source })?;
+            .map_err(|source| ScenarioError::Board { file: self.file.clone(), source: Box::new(source) })?;
         let causes = self.content.cause.iter();
         let causes = causes.map(|cause| resolve::cause(self.at(cause), cause.get_ref(), &schedule));
         let expect = &self.content.expect;
@@ -162,8 +162,9 @@ impl Scenario {
     /// [`ScenarioError`].
     pub fn rehearse(&self) -> Result<Verdict, ScenarioError> {
         let trial = self.trial()?;
-        let rehearsed =
-            trial.run().map_err(|source| ScenarioError::Board { file: self.file.clone(), source })?;
+        let rehearsed = trial
+            .run()
+            .map_err(|source| ScenarioError::Board { file: self.file.clone(), source: Box::new(source) })?;
         Ok(self.judge(&trial, &rehearsed))
     }
 

@@ -49,19 +49,26 @@ impl Verdict {
     }
 }
 
-/// The fault that a scenario names; `None` for none.
-fn fault(name: &str) -> Option<Option<FaultCode>> {
+/// What is known of a fault's name.
+enum Named {
+    NoFault,
+    Fault(FaultCode),
+    Unknown,
+}
+
+fn named(name: &str) -> Named {
     if name == "none" {
-        return Some(None);
+        return Named::NoFault;
     }
-    let number: u16 = name.strip_prefix('F')?.parse().ok()?;
-    FaultCode::ALL.iter().find(|code| code.number() == number).map(|code| Some(*code))
+    let number = name.strip_prefix('F').and_then(|number| number.parse::<u16>().ok());
+    let code = FaultCode::ALL.iter().find(|code| Some(code.number()) == number);
+    code.map_or(Named::Unknown, |code| Named::Fault(*code))
 }
 
 /// Refuses what can't be judged.
 pub(super) fn check(at: At<'_>, expect: &ExpectTable) -> Result<(), ScenarioError> {
     match &expect.fault {
-        Some(name) if fault(name).is_none() => {
+        Some(name) if matches!(named(name), Named::Unknown) => {
             Err(at.refuse("expect.fault", "\"none\" or a fault code as in \"F08\"", format!("{name:?}")))
         }
         _ => Ok(()),
@@ -173,17 +180,15 @@ fn outcome(expect: &ExpectTable, rehearsed: &Rehearsed) -> Row {
 fn facts(expect: &ExpectTable, rehearsed: &Rehearsed) -> Vec<Row> {
     let witness = &rehearsed.witness;
     let mut rows = Vec::new();
-    if let Some(required) = expect.fault.as_deref().and_then(fault) {
+    if let Some(name) = &expect.fault {
         let found = witness.faults.first().map(|fault| fault.code);
-        let name =
-            |code: Option<FaultCode>| code.map_or("none".to_owned(), |code| format!("F{:02}", code.number()));
-        let (required_name, measured) = (name(required), name(found));
-        rows.push(Row {
-            what: "fault".to_owned(),
-            required: required_name,
-            measured,
-            holds: found == required,
-        });
+        let holds = match named(name) {
+            Named::NoFault => found.is_none(),
+            Named::Fault(code) => found == Some(code),
+            Named::Unknown => false,
+        };
+        let measured = found.map_or("none".to_owned(), |code| format!("F{:02}", code.number()));
+        rows.push(Row { what: "fault".to_owned(), required: name.clone(), measured, holds });
     }
     if let Some(most) = expect.never_above {
         let hottest = witness.hinges.iter().filter_map(|hinge| hinge.hottest).map(|(celsius, _)| celsius);
