@@ -5,10 +5,7 @@ use zygote_rehearsal::Scenario;
 use zygote_rehearsal::scenario::table;
 
 /// Scenarios whose rule doesn't hold today, with the rule; taken off as soon as it does.
-const KNOWN_FAILURES: [(&str, &str); 1] = [
-    // A host whose commands don't get through, but who hears the board, waits for an answer for ever.
-    ("s03-line-cut-to-board", "S12"),
-];
+const KNOWN_FAILURES: [(&str, &str); 0] = [];
 
 #[test]
 fn every_scenario_holds_but_those_that_are_known_not_to() {
