@@ -119,6 +119,15 @@ struct Half {
     owed: Owed,
 }
 
+/// Whether reliable messages are taken.
+#[derive(Debug, Clone, Copy)]
+enum Accept {
+    Always,
+    Never,
+    /// While there is room for an answer, counted after the acknowledgement that the message's own frame brings.
+    WithRoom,
+}
+
 /// How a good frame goes on to the caller.
 #[derive(Debug, Clone, Copy)]
 enum Route {
@@ -274,6 +283,16 @@ impl Link {
     /// is used up. With `accept` false, reliable messages are turned away and will be sent again: for a caller
     /// that has no room for the answer.
     pub fn receive<'a>(&'a mut self, now: Micros, bytes: &mut &[u8], accept: bool) -> Option<Received<'a>> {
+        self.receive_by(now, bytes, if accept { Accept::Always } else { Accept::Never })
+    }
+
+    /// As [`Self::receive`], for a caller that answers every reliable message with one of its own: one that finds no
+    /// room for its answer is turned away and will be sent again.
+    pub fn receive_with_room<'a>(&'a mut self, now: Micros, bytes: &mut &[u8]) -> Option<Received<'a>> {
+        self.receive_by(now, bytes, Accept::WithRoom)
+    }
+
+    fn receive_by<'a>(&'a mut self, now: Micros, bytes: &mut &[u8], accept: Accept) -> Option<Received<'a>> {
         loop {
             let Ok(header) = self.decoder.next(bytes)? else {
                 self.half.counters.bad = self.half.counters.bad.wrapping_add(1);
@@ -324,7 +343,7 @@ impl Half {
         }
     }
 
-    fn take(&mut self, now: Micros, header: Header, accept: bool) -> Route {
+    fn take(&mut self, now: Micros, header: Header, accept: Accept) -> Route {
         match header.kind {
             FrameKind::Hello => return Route::Hello,
             FrameKind::HelloReply => return Route::HelloReply,
@@ -340,7 +359,14 @@ impl Half {
             self.outbox.acknowledged(header.ack, now, &mut self.round_trip);
         }
         match header.kind {
-            FrameKind::Data => self.take_data(header.seq, accept),
+            FrameKind::Data => {
+                let accept = match accept {
+                    Accept::Always => true,
+                    Accept::Never => false,
+                    Accept::WithRoom => self.outbox.room() > 0,
+                };
+                self.take_data(header.seq, accept)
+            }
             FrameKind::Nack => {
                 self.outbox.go_back_on_request(now);
                 Route::Nowhere

@@ -211,8 +211,7 @@ impl World {
             if mutant == Mutant::TakesRepetitions { renumbered(frame, &self.mcu) } else { frame.to_vec() };
         let mut bytes = frame.as_slice();
         loop {
-            let accept = self.mcu.room() > 0;
-            let Some(received) = self.mcu.receive(Micros(self.mcu_now), &mut bytes, accept) else { break };
+            let Some(received) = self.mcu.receive_with_room(Micros(self.mcu_now), &mut bytes) else { break };
             match received {
                 Received::Hello(session, _) => {
                     let replaced = self.mcu.was_replaced(session) && mutant != Mutant::OpensReplaced;

@@ -149,8 +149,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     /// Takes bytes from the host.
     pub fn handle_bytes(&mut self, now: Micros, mut bytes: &[u8]) {
         loop {
-            let accept = self.link.room() > 0;
-            let Some(received) = self.link.receive(now, &mut bytes, accept) else { return };
+            let Some(received) = self.link.receive_with_room(now, &mut bytes) else { return };
             match received {
                 Received::Hello(session, payload) => {
                     // Only the front: a hello of another version may go on differently, and is answered all the same.

@@ -33,7 +33,7 @@ extern "C" fn main() -> ! {
     loop {
         let now = Micros(black_box(1));
         let mut bytes: &[u8] = black_box(&[]);
-        while let Some(received) = link.receive(now, &mut bytes, black_box(true)) {
+        while let Some(received) = link.receive_with_room(now, &mut bytes) {
             match received {
                 Received::Hello(session, payload) => {
                     black_box(peek_versions(payload));
