@@ -34,10 +34,10 @@ class Program:
         return dataclasses.replace(mcu.ceiling, supply=supply, link_timeout=link_timeout)
 
 
-def make(zygote: Path, model: Path, rig: Path, folder: Path) -> Program:
-    """Plans a model in two piles and schedules it for a rig."""
+def make(zygote: Path, model: Path, rig: Path, folder: Path, piles: int = 2) -> Program:
+    """Plans a model in so many piles and schedules it for a rig."""
     plan = folder / "plan.fold"
-    _run(zygote, "plan", model, "--piles", 2, "--free", "ideal", "--output", plan)
+    _run(zygote, "plan", model, "--piles", piles, "--free", "ideal", "--output", plan)
     _run(zygote, "schedule", plan, "--rig", rig, "--parallel", 4)
     return Program(plan, rig, json.loads(plan.read_text())["zygote:schedule"])
 

@@ -11,9 +11,11 @@ END = 5.0
 
 
 @contextlib.contextmanager
-def simulator(zygote: Path, rig: Path, plan: Path) -> Iterator[str]:
+def simulator(zygote: Path, rig: Path, plan: Path, scenario: Path | None = None) -> Iterator[str]:
     """A simulated board that was just switched on; gives the device of its pseudo-terminal."""
     arguments: list[str | Path] = [zygote, "sim", "--rig", rig, "--plan", plan]
+    if scenario:
+        arguments += ["--scenario", scenario]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout
         assert process.stderr

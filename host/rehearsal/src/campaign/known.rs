@@ -13,16 +13,24 @@ struct Gap {
     needs: &'static [fn(&What, &Breach) -> bool],
 }
 
+const REPLAYED: &str =
+    "S11: a session that is replayed from its hello on is executed again, after a reset or another session";
+
 const GAPS: &[Gap] = &[
     Gap {
         rule: "end",
         about: "a host whose commands don't get through, but who hears the board, waits for ever",
         needs: &[|what, _| matches!(what, What::Cut(Way::ToBoard, None))],
     },
+    Gap { rule: "S11", about: REPLAYED, needs: &[|what, _| matches!(what, What::Replay)] },
     Gap {
-        rule: "S11",
-        about: "S11: a session that is replayed from its hello on is executed again, after a reset or another session",
-        needs: &[|what, _| matches!(what, What::Replay)],
+        // What such a second run does to hinges that the host knows to be open.
+        rule: "S12",
+        about: REPLAYED,
+        needs: &[
+            |what, _| matches!(what, What::Replay),
+            |what, _| matches!(what, What::Reset(_) | What::Hang(_) | What::SecondHost),
+        ],
     },
 ];
 

@@ -41,7 +41,8 @@ pub(super) fn judge(rehearsed: &Rehearsed) -> Vec<Breach> {
     for (at, what) in rehearsed.script.happened() {
         let Some((rule, deadline)) = deadline(witness, at, what) else { continue };
         let deadline = deadline.max(stuck_until(rehearsed, at));
-        if let Some(span) = witness.energised.iter().find(|span| span.to > deadline && span.from < deadline) {
+        if let Some(span) = witness.energised.iter().find(|span| span.to > deadline && span.from <= deadline)
+        {
             let (until, due) = (seconds(span.to), seconds(deadline));
             let over = format!("{what}: current until {until:.3} s, off was due at {due:.3} s");
             breaches.push(Breach::new(rule, at, over));

@@ -215,26 +215,35 @@ fn facts(expect: &ExpectTable, rehearsed: &Rehearsed) -> Vec<Row> {
 
 /// A line a scenario, those that failed with what failed.
 pub fn table(verdicts: &[Verdict]) -> String {
-    let line = |cells: [&str; 6]| {
-        let [name, rule, cause, required, measured, verdict] = cells;
-        format!("{name:<30} {rule:<4} {cause:<58} {required:<40} {measured:<12} {verdict}")
-    };
-    let mut text = line(["scenario", "rule", "cause", "required", "measured", "verdict"]);
-    for verdict in verdicts {
-        let verdict_word = if verdict.holds() { "ok" } else { "FAILED" };
-        let rule = verdict.rule.as_deref().unwrap_or_default();
-        let (required, measured) = verdict.rows.first().map_or_else(Default::default, |row| {
-            (format!("{} {}", row.what, row.required), row.measured.clone())
-        });
-        let cells = [&verdict.scenario, rule, &verdict.cause, &required, &measured, verdict_word];
+    let mut lines = vec![["scenario", "rule", "cause", "required", "measured", "verdict"].map(str::to_owned)];
+    lines.extend(verdicts.iter().map(cells));
+    let width = |column: usize| lines.iter().map(|cells| cells[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; 6] = std::array::from_fn(width);
+    let mut text = String::new();
+    for (at, cells) in lines.iter().enumerate() {
+        let padded: Vec<_> =
+            cells.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
         // A string takes all.
-        write!(text, "\n{}", line(cells).trim_end()).ok();
+        writeln!(text, "{}", padded.join("  ").trim_end()).ok();
+        let Some(verdict) = at.checked_sub(1).and_then(|at| verdicts.get(at)) else { continue };
         for row in verdict.rows.iter().filter(|row| !row.holds) {
-            write!(text, "\n    {}: expected {}, found {}", row.what, row.required, row.measured).ok();
+            writeln!(text, "    {}: expected {}, found {}", row.what, row.required, row.measured).ok();
         }
         for breach in &verdict.breaches {
-            write!(text, "\n    {breach}").ok();
+            writeln!(text, "    {breach}").ok();
         }
     }
-    text
+    text.trim_end().to_owned()
+}
+
+/// A scenario's line: the first thing that it expects stands for all.
+fn cells(verdict: &Verdict) -> [String; 6] {
+    let (required, measured) = verdict.rows.first().map_or_else(Default::default, |row| {
+        // A host's reason is too long for a table.
+        let measured = row.measured.split(':').next().unwrap_or_default();
+        (format!("{} {}", row.what, row.required), measured.to_owned())
+    });
+    let rule = verdict.rule.clone().unwrap_or_default();
+    let word = if verdict.holds() { "ok" } else { "FAILED" };
+    [verdict.scenario.clone(), rule, verdict.cause.clone(), required, measured, word.to_owned()]
 }
