@@ -17,7 +17,7 @@ PAGE = (BOOK / "protocol.md").read_text()
 FAULT = reports.Fault(Faulted.OVER_TEMPERATURE, at=5_000_000, step=3, channel=2, value=12_050, limit=-1)
 STATUS = reports.Status(1_000_000, reports.State.SAFE, 7, FAULT, opened=3, heaters_on=0, main_switch=False)
 FROZEN = reports.Fault(Faulted.SENSOR_FROZEN, at=5_000_000, step=3, channel=2, value=6_000, limit=1_500)
-SNAPSHOT = reports.Snapshot(9, 5_000_000, reports.State.SAFE, 7, FROZEN, steps=5, states=(0x4A, 0x01))
+SNAPSHOT = reports.Snapshot(9, 5_000_000, reports.State.SAFE, 7, FROZEN, steps=5, states=(0x4A, 0x01), session=3)
 LIMITS = Limits(max_temperature=12_000, max_on=30_000, min_rest=500, supply=2_000, link_timeout=1_000)
 HEAT = Heat(3, 9_500, 1_000, 20_000, 12_000, 4_500, 500, 500, 3_000, 200)
 STEPS = (

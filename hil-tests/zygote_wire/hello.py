@@ -7,7 +7,7 @@ from typing import Annotated
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
 VERSION = 2
-SCHEMA = 0x1A47BFE0
+SCHEMA = 0x1BD4149D
 
 
 class ResetCause(enum.IntEnum):

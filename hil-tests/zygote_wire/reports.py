@@ -77,6 +77,7 @@ class Snapshot:
     fault: Fault | None
     steps: U16
     states: tuple[U8, ...]
+    session: U32 | None
 
     def step(self, number: int) -> int:
         """What had become of a step: 0 waiting, 1 interrupted, 2 open."""

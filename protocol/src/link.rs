@@ -190,6 +190,11 @@ impl Link {
         session != NO_SESSION && self.half.replaced.contains(&session)
     }
 
+    /// Never opens a session that was open before this link was made: before a reset.
+    pub fn refuse(&mut self, session: u32) {
+        self.half.remember(session);
+    }
+
     /// Heeds what the other end can take in: frames under way at once, and bytes of payload in one. To be called
     /// once the session is open, and forgotten with it.
     pub fn heed(&mut self, buffers: Buffers) {
@@ -336,10 +341,14 @@ impl Half {
     /// Another session than the open one is opened: the open one is over for good.
     fn remember_replaced(&mut self, by: u32) {
         if let Some(session) = self.session.filter(|session| *session != by) {
-            self.replaced.rotate_right(1);
-            if let Some(latest) = self.replaced.first_mut() {
-                *latest = session;
-            }
+            self.remember(session);
+        }
+    }
+
+    fn remember(&mut self, session: u32) {
+        self.replaced.rotate_right(1);
+        if let Some(latest) = self.replaced.first_mut() {
+            *latest = session;
         }
     }
 

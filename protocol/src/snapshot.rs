@@ -29,12 +29,14 @@ pub struct Snapshot {
     pub steps: u16,
     /// Two bits a step, the lowest first: 0 waiting, 1 moving or interrupted, 2 open. What is missing is waiting.
     pub states: Vec<u8, BYTES>,
+    /// The session that was open: its hello may still be under way, and isn't to open it again (S11).
+    pub session: Option<u32>,
 }
 
 impl Snapshot {
     /// A snapshot without its steps.
     pub fn new(boot: u32, at: Micros, state: State, run: Option<u32>, fault: Option<Fault>) -> Self {
-        Self { boot, at, state, run, fault, steps: 0, states: Vec::new() }
+        Self { boot, at, state, run, fault, steps: 0, states: Vec::new(), session: None }
     }
 
     /// Adds the state of the next step.
@@ -188,6 +190,7 @@ mod tests {
                 at: Micros(u64::MAX),
                 run: Some(u32::MAX),
                 steps: u16::MAX,
+                session: Some(u32::MAX),
                 fault: Some(Fault {
                     code: crate::FaultCode::SensorFrozen,
                     at: Micros(u64::MAX),

@@ -12,7 +12,7 @@ use zygote_protocol::{
 
 #[test]
 fn the_schema_hash_stays() {
-    assert_eq!(format!("{:08x}", schema::hash()), "1a47bfe0");
+    assert_eq!(format!("{:08x}", schema::hash()), "1bd4149d");
 }
 
 #[test]
@@ -26,8 +26,9 @@ fn the_last_run_stays() {
     {
         snapshot.push(state);
     }
+    snapshot.session = Some(3);
     let told = Response { id: 513, result: Ok(Reply::LastRun(Some(snapshot))) };
-    golden(&Report::Response(told), "00810400030109c096b102050107010dc096b10201030102e05db81705024a01");
+    golden(&Report::Response(told), "00810400030109c096b102050107010dc096b10201030102e05db81705024a010103");
 }
 
 fn frozen() -> Fault {

@@ -14,7 +14,7 @@ use zygote_protocol::{
 };
 
 /// Time between two control ticks: as slow as the core allows, to be fast.
-const TICK: Millis = Millis(5);
+pub const TICK: Millis = Millis(5);
 
 /// The watchdog resets an MCU that hasn't fed it for so long (S9).
 const WATCHDOG: Millis = Millis(400);

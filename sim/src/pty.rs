@@ -1,6 +1,6 @@
 //! Serves a simulated board on a pseudo-terminal, in real time: any serial program can open it.
 
-use crate::board::Board;
+use crate::device::Device;
 use crate::plant::PlantError;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fd::OwnedFd;
@@ -78,7 +78,7 @@ impl Pty {
     ///
     /// # Errors
     /// The terminal broke.
-    pub fn serve(&self, board: &mut Board, stop: &AtomicBool) -> Result<(), ServeError> {
+    pub fn serve<D: Device>(&self, board: &mut D, stop: &AtomicBool) -> Result<(), ServeError> {
         let mut wall = Instant::now();
         let mut buffer = [0; 4096];
         let mut out = Vec::new();

@@ -17,8 +17,26 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-deployment", &["zygote-stacking"]),
     ("zygote-controller", &["zygote-protocol", "zygote-deployment"]),
     (
+        "zygote-rehearsal",
+        &[
+            "zygote-stacking",
+            "zygote-deployment",
+            "zygote-controller",
+            "zygote-core",
+            "zygote-protocol",
+            "zygote-sim",
+        ],
+    ),
+    (
         "zygote-cli",
-        &["zygote-stacking", "zygote-deployment", "zygote-controller", "zygote-protocol", "zygote-sim"],
+        &[
+            "zygote-stacking",
+            "zygote-deployment",
+            "zygote-controller",
+            "zygote-protocol",
+            "zygote-rehearsal",
+            "zygote-sim",
+        ],
     ),
     ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol"]),
     ("xtask", &[]),

@@ -3,6 +3,7 @@
 
 mod arrows;
 mod bench;
+mod campaign;
 mod demo;
 mod docs;
 mod firmware;
@@ -31,10 +32,12 @@ const PARTS: &[Part] = &[
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let [verb, options @ ..] = arguments.as_slice()
-        && verb == "fuzz"
-    {
-        return told(fuzz::run(options));
+    if let [verb, options @ ..] = arguments.as_slice() {
+        match verb.as_str() {
+            "fuzz" => return told(fuzz::run(options)),
+            "campaign" => return told(campaign::run(options)),
+            _ => {}
+        }
     }
     if let [verb, name, options @ ..] = arguments.as_slice() {
         match (verb.as_str(), name.as_str()) {
@@ -74,7 +77,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

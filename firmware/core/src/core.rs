@@ -50,6 +50,8 @@ pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize,
     supply_guard: SupplyGuard,
     /// What was left of the time before the last reset.
     pub(crate) before: Option<Snapshot>,
+    /// Sessions that were opened.
+    openings: u32,
     /// Time of the latest control tick.
     ticked: Micros,
     telemetry_due: Micros,
@@ -61,13 +63,17 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     Core<HEATERS, SERVOS, SPRINGS, STEPS>
 {
     /// A core in state Idle, everything off. `before` is what the board kept of the time before its reset.
-    pub const fn new(config: Config, now: Micros, before: Option<Snapshot>) -> Self {
+    pub fn new(config: Config, now: Micros, before: Option<Snapshot>) -> Self {
         const {
             assert!(
                 STEPS >= HEATERS + SERVOS + SPRINGS,
                 "a program has a step a channel at most, and none is streamed"
-            )
+            );
         };
+        let mut link = Link::new(now);
+        if let Some(session) = before.as_ref().and_then(|before| before.session) {
+            link.refuse(session);
+        }
         Self {
             config,
             mode: Mode::Idle,
@@ -76,10 +82,11 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             guards: [ThermalGuard::NEW; HEATERS],
             stop_pressed: false,
             outputs: Outputs::OFF,
-            link: Link::new(now),
+            link,
             events: EventQueue::new(),
             supply_guard: SupplyGuard::new(),
             before,
+            openings: 0,
             ticked: now,
             telemetry_due: now,
             supply: Millivolts(0),
@@ -109,13 +116,14 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
 
     /// A number that changes with everything that [`Self::snapshot`] tells but the time.
     pub fn changes(&self) -> u32 {
-        self.events.count()
+        self.events.count().wrapping_add(self.openings)
     }
 
     /// What is to be kept over a reset (S9): boards write it down whenever [`Self::changes`] is another.
     pub fn snapshot(&self, now: Micros) -> Snapshot {
         let (state, run, fault) = (self.mode.state(), self.program.run(), self.mode.fault());
         let mut snapshot = Snapshot::new(self.config.identity.boot, now, state, run, fault);
+        snapshot.session = self.link.session();
         self.sequencer.states().for_each(|state| snapshot.push(state));
         snapshot
     }
@@ -129,6 +137,11 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         };
         let heard = self.link.last_heard().plus(limits.link_timeout).plus(DEAD_MAN_GRACE);
         Some(heard.min(self.ticked.plus(DEAD_MAN_GRACE)))
+    }
+
+    /// The open session.
+    pub fn link_session(&self) -> Option<u32> {
+        self.link.session()
     }
 
     /// What the link has seen.
@@ -183,6 +196,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             }
             self.events.clear();
             self.link.open(session, now);
+            self.openings = self.openings.wrapping_add(1);
         }
         let reply = HelloReply {
             min: VERSION_MIN,

@@ -2,7 +2,6 @@
 
 use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
-use crate::sim_rig::{self, SimTransport};
 use crate::{identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
@@ -17,6 +16,8 @@ use zygote_controller::{
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_protocol::Millis;
+use zygote_rehearsal::scenario::table;
+use zygote_rehearsal::{Ending, Scenario, Stage, Trial};
 
 /// How long an answer to the hello is waited for.
 const HELLO_PATIENCE: Millis = Millis(2_000);
@@ -48,6 +49,9 @@ pub(crate) struct Arguments {
     /// Servos that were interrupted stand again where they started: you have put them there
     #[arg(long, requires = "resume")]
     interrupted_are_back: bool,
+    /// What goes wrong on the simulator, and what must come of it; the exit code is that of the verdict
+    #[arg(long, value_name = "FILE", requires = "sim")]
+    scenario: Option<PathBuf>,
     /// Event log, one JSON object a line [default: beside plan or schedule, .events.jsonl]
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
@@ -79,14 +83,35 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let open = opened_before(arguments, &schedule)?;
     if let Some(device) = &arguments.target.port {
         let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
-        let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule, &open)?;
+        let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule, &open, &|| false)?;
         return judge(&report);
     }
-    let board = sim_rig::board(&rig, Some(&standing(&schedule, &open)), SIMULATED)?;
-    let (report, transport) = run_on(arguments, SimTransport::new(board), SIMULATED, &rig, &schedule, &open)?;
-    let truth = true_angles(&transport, &schedule, arguments.json);
-    judge(&report)?;
-    truth
+    let standing = standing(&schedule, &open);
+    let Some(path) = &arguments.scenario else {
+        let trial = Trial::new(rig.clone(), standing).or_bad_input()?;
+        let mut stage = trial.open().or_bad_input()?;
+        let (report, _) = run_on(arguments, &mut stage, SIMULATED, &rig, &schedule, &open, &|| false)?;
+        let truth = true_angles(&stage, &schedule, arguments.json);
+        judge(&report)?;
+        return truth;
+    };
+    let scenario = Scenario::open(path).or_bad_input()?;
+    let trial = scenario.trial_of(rig.clone(), standing).or_bad_input()?;
+    let mut stage = trial.open().or_bad_input()?;
+    let stops = stage.user_stops();
+    let ran = run_on(arguments, &mut stage, SIMULATED, &rig, &schedule, &open, &|| stops.get());
+    let ending = match ran {
+        Ok((report, _)) => Ending::Report(Box::new(report)),
+        Err(Failure::Failed(error)) => Ending::Refused(format!("{error:#}")),
+        Err(bad_input @ Failure::BadInput(_)) => return Err(bad_input),
+    };
+    let verdict = scenario.judge(&trial, &trial.close(stage, ending).or_failed()?);
+    say(table(std::slice::from_ref(&verdict)));
+    if verdict.holds() {
+        Ok(())
+    } else {
+        Err(Failure::Failed(anyhow!("{}: the scenario failed", scenario.file)))
+    }
 }
 
 /// The hinges that need not move again.
@@ -117,6 +142,7 @@ fn run_on<T: Transport>(
     rig: &Rig,
     schedule: &Schedule,
     open: &BTreeSet<usize>,
+    stops: &dyn Fn() -> bool,
 ) -> Result<(RunReport, T), Failure> {
     let interrupted = interrupt::flag()?;
     let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
@@ -129,7 +155,7 @@ fn run_on<T: Transport>(
         run: number,
         open,
         clear: arguments.clear,
-        interrupted: &|| interrupted.load(Ordering::Relaxed),
+        interrupted: &|| interrupted.load(Ordering::Relaxed) || stops(),
     };
     let bar = progress_bar(schedule.steps.len() - open.len());
     let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
@@ -195,8 +221,8 @@ fn describe(motion: &MotionState) -> String {
 }
 
 /// Holds the true angles of the simulated hinges against those of the plan.
-fn true_angles(transport: &SimTransport, schedule: &Schedule, json: bool) -> Result<(), Failure> {
-    let plant = transport.board().plant();
+fn true_angles(stage: &Stage, schedule: &Schedule, json: bool) -> Result<(), Failure> {
+    let plant = stage.board().plant();
     let angle = |kind, channel: u16| {
         let channel = usize::from(channel);
         match kind {

@@ -1,7 +1,6 @@
 //! Deployments over a line that damages, loses or ends: the real host and the real core with something in between.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::sim_rig::{self, SimTransport};
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::io;
@@ -13,11 +12,12 @@ use zygote_controller::{
 };
 use zygote_deployment::{Limits, Order, Rig, Schedule, Tree};
 use zygote_protocol::{Micros, Millis, State};
+use zygote_rehearsal::{Stage, Trial};
 use zygote_stacking::{Model, Request};
 
 /// A simulated board behind a line that flips a bit in one byte of so many, and is dead from some time on.
 struct BadLine {
-    sim: SimTransport,
+    sim: Stage,
     one_in: u64,
     dead_from: Micros,
     random: u64,
@@ -84,8 +84,8 @@ fn job() -> (Rig, Schedule) {
 }
 
 fn line(rig: &Rig, schedule: &Schedule, one_in: u64, dead_from: Micros) -> BadLine {
-    let Ok(board) = sim_rig::board(rig, Some(schedule), 1) else { panic!("the mixed rig can be simulated") };
-    BadLine { sim: SimTransport::new(board), one_in, dead_from, random: 0x1234_5678_9abc_def1 }
+    let trial = Trial::new(rig.clone(), schedule.clone()).unwrap();
+    BadLine { sim: trial.open().unwrap(), one_in, dead_from, random: 0x1234_5678_9abc_def1 }
 }
 
 /// Deploys; `interrupted` is asked with the number of times it was asked before.
@@ -192,7 +192,7 @@ fn a_schedule_on_several_nodes_is_refused_before_anything_is_sent() {
 
 /// One port that two programs have opened.
 #[derive(Clone)]
-struct SharedPort(Rc<RefCell<SimTransport>>);
+struct SharedPort(Rc<RefCell<Stage>>);
 
 impl Transport for SharedPort {
     fn now(&self) -> Micros {
@@ -225,7 +225,7 @@ fn of_two_hosts_on_one_port_the_first_is_told_that_another_took_over() {
 
 /// A host whose clock runs faster than the simulated board's.
 struct FastClock {
-    sim: SimTransport,
+    sim: Stage,
     ppm: u64,
 }
 

@@ -2,11 +2,12 @@
 
 use crate::failure::{Failure, OrFail};
 use crate::output::say;
-use crate::{identity, input, interrupt, sim_rig};
+use crate::{identity, input, interrupt};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::PathBuf;
-use zygote_sim::Pty;
+use zygote_rehearsal::Scenario;
+use zygote_sim::{Device, Pty};
 
 /// Arguments of `zygote sim`.
 #[derive(Args)]
@@ -20,6 +21,9 @@ pub(crate) struct Arguments {
     /// The schedule, where it doesn't stand in the plan
     #[arg(long, value_name = "FILE", requires = "plan")]
     schedule: Option<PathBuf>,
+    /// What goes wrong, and when
+    #[arg(long, value_name = "FILE", requires = "plan")]
+    scenario: Option<PathBuf>,
 }
 
 /// Prints the device on a line of its own, then serves until Ctrl-C.
@@ -29,11 +33,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Some(input::schedule(path, &input::plan(path)?, &rig, arguments.schedule.as_deref())?),
         None => None,
     };
-    let mut board = sim_rig::board(&rig, schedule.as_ref(), identity::fresh())?;
+    match (&arguments.scenario, schedule) {
+        (Some(path), Some(schedule)) => {
+            let trial = Scenario::open(path).or_bad_input()?.trial_of(rig, schedule).or_bad_input()?;
+            serve(&mut trial.open().or_bad_input()?)
+        }
+        (_, schedule) => {
+            let board = zygote_rehearsal::board(&rig, schedule.as_ref(), identity::fresh());
+            serve(&mut board.or_bad_input()?)
+        }
+    }
+}
+
+fn serve<D: Device>(board: &mut D) -> Result<(), Failure> {
     let stop = interrupt::flag()?;
     let pty = Pty::open().or_failed()?;
     say(pty.path().display());
     // Whoever started this program waits for that line.
     io::stdout().flush().or_failed()?;
-    pty.serve(&mut board, &stop).or_failed()
+    pty.serve(board, &stop).or_failed()
 }

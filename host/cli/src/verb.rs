@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::{
     alternatives, assembly, check, deploy, explain, export, fold_back, link, net, picture, plan, reconfigure,
-    schedule, sequence, sim, table, tolerance, torque,
+    rehearse, schedule, sequence, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -40,6 +40,8 @@ pub(crate) enum Verb {
     Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
+    /// Run scenario files: deployments on the simulator with something going wrong, judged
+    Rehearse(rehearse::Arguments),
     /// Measure the line to a board
     Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
@@ -63,6 +65,7 @@ impl Verb {
             Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
             Self::Fold(arguments) => fold_back::run(&arguments),
             Self::Assembly(arguments) => assembly::run(&arguments),

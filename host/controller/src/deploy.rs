@@ -344,7 +344,12 @@ impl Watch<'_> {
             Outcome::Lost(why) => Outcome::Lost(self.after_loss(session, why)),
             ended => match self.ask_states(session) {
                 Ok(()) => ended,
-                Err(error) => Outcome::Lost(error.to_string()),
+                Err(error) => match ended {
+                    Outcome::Fault(why) => {
+                        Outcome::Fault(format!("{why}; how far each hinge is it didn't say: {error}"))
+                    }
+                    _ => Outcome::Lost(error.to_string()),
+                },
             },
         };
         if let (Some(started), Some(ended)) = (self.started, self.ended) {

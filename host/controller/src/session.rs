@@ -12,6 +12,8 @@ use zygote_protocol::{
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
 const SILENCE: Millis = Millis(2_000);
+/// An MCU that is heard, but has acknowledged nothing new for so long while something waits, doesn't hear this host.
+const UNHEARD: Millis = Millis(4_000);
 /// The session asks for the MCU's time so often.
 const PROBE_EVERY: Millis = Millis(1_000);
 /// Room in the link that commands leave free.
@@ -27,6 +29,17 @@ pub enum SessionError {
         line: String,
         /// For how long.
         silent_ms: u64,
+    },
+    /// The MCU talks but doesn't hear.
+    #[error(
+        "{line}: the MCU is heard, but has acknowledged nothing for {unheard_ms} ms: what goes to it is lost; look at that wire. It turns \
+         everything off by itself"
+    )]
+    Unheard {
+        /// The line.
+        line: String,
+        /// For how long.
+        unheard_ms: u64,
     },
     /// The MCU doesn't know this session: it was reset, or another host opened one.
     #[error(
@@ -97,6 +110,8 @@ pub struct Session<T> {
     inbox: Inbox,
     /// When this session asks for the MCU's time again.
     next_probe: Micros,
+    /// When the MCU last acknowledged something, or had nothing to, and how much it had by then.
+    progress: (Micros, u32),
 }
 
 impl<T: Transport> Session<T> {
@@ -108,7 +123,16 @@ impl<T: Transport> Session<T> {
         let mut link = Link::new(transport.now());
         let info = connect::shake_hands(&mut transport, &mut link, number, patience)?;
         let next_probe = transport.now();
-        Ok(Self { transport, link, number, info, next_id: 0, inbox: Inbox::default(), next_probe })
+        Ok(Self {
+            transport,
+            link,
+            number,
+            info,
+            next_id: 0,
+            inbox: Inbox::default(),
+            next_probe,
+            progress: (next_probe, 0),
+        })
     }
 
     /// What the MCU said about itself.
@@ -257,6 +281,7 @@ impl<T: Transport> Session<T> {
         self.inbox.restart(info.identity.boot == self.info.identity.boot);
         self.info = info;
         self.number = number;
+        self.progress = (self.transport.now(), 0);
         Ok(())
     }
 
@@ -326,6 +351,14 @@ impl<T: Transport> Session<T> {
         let silent = now.since(self.link.last_heard());
         if silent > SILENCE.to_micros() {
             return Err(SessionError::Silent { line: self.transport.name(), silent_ms: silent / 1000 });
+        }
+        let delivered = self.link.counters().delivered;
+        if self.link.is_settled() || delivered != self.progress.1 {
+            self.progress = (now, delivered);
+        }
+        let unheard = now.since(self.progress.0);
+        if unheard > UNHEARD.to_micros() {
+            return Err(SessionError::Unheard { line: self.transport.name(), unheard_ms: unheard / 1000 });
         }
         Ok(())
     }

@@ -63,6 +63,8 @@ pub struct Readings {
 pub struct Plant {
     ambient_c: f64,
     supply: SupplyConfig,
+    /// The supply as it was made, to come back to after a sag.
+    sound_supply: SupplyConfig,
     supply_cut: bool,
     heaters: Vec<SmaHinge>,
     servos: Vec<ServoHinge>,
@@ -70,6 +72,8 @@ pub struct Plant {
     noise: Noise,
     /// What the supply gave in the latest step.
     output: Output,
+    /// What of it went through heaters.
+    heaters_a: f64,
     longest_step_s: f64,
 }
 
@@ -104,12 +108,14 @@ impl Plant {
         Ok(Self {
             ambient_c: config.ambient_c,
             supply: config.supply,
+            sound_supply: config.supply,
             supply_cut: false,
             heaters: config.heaters.iter().map(|sma| SmaHinge::new(*sma, config.ambient_c)).collect(),
             servos: config.servos.iter().copied().map(ServoHinge::new).collect(),
             springs: config.springs.iter().copied().map(SpringHinge::new).collect(),
             noise: Noise::new(config.seed),
             output: config.supply.idle(),
+            heaters_a: 0.0,
             longest_step_s,
         })
     }
@@ -139,8 +145,11 @@ impl Plant {
         let powered = drive.main_switch && !self.supply_cut;
         self.output = self.load(powered, drive);
         let actuators_v = if powered { self.output.voltage_v } else { 0.0 };
+        self.heaters_a = 0.0;
         for (hinge, duty) in self.heaters.iter_mut().zip(drive.heaters) {
-            let power_w = actuators_v * actuators_v * hinge.conductance_s(share(*duty));
+            let conductance_s = hinge.conductance_s(share(*duty));
+            self.heaters_a += actuators_v * conductance_s;
+            let power_w = actuators_v * actuators_v * conductance_s;
             hinge.advance(dt_s, power_w, self.ambient_c);
         }
         for (hinge, pulse) in self.servos.iter_mut().zip(drive.servos) {
@@ -210,6 +219,23 @@ impl Plant {
     /// True current out of the supply in the latest step.
     pub fn supply_a(&self) -> f64 {
         self.output.current_a
+    }
+
+    /// True current through all heaters together in the latest step.
+    pub fn heaters_a(&self) -> f64 {
+        self.heaters_a
+    }
+
+    fn set_supply(&mut self, open_circuit_v: f64, source_ohm: f64) -> Result<(), PlantError> {
+        let weak = SupplyConfig { open_circuit_v, source_ohm, ..self.supply };
+        weak.check()?;
+        self.supply = weak;
+        Ok(())
+    }
+
+    fn restore_supply(&mut self) {
+        self.supply = self.sound_supply;
+        self.supply_cut = false;
     }
 
     fn cut_supply(&mut self) {

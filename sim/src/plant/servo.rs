@@ -109,11 +109,18 @@ pub struct ServoHinge {
     angle_deg: f64,
     activity: ServoActivity,
     jammed: bool,
+    stalled: bool,
 }
 
 impl ServoHinge {
     pub(super) fn new(config: ServoConfig) -> Self {
-        Self { config, angle_deg: config.start_deg, activity: ServoActivity::Limp, jammed: false }
+        Self {
+            config,
+            angle_deg: config.start_deg,
+            activity: ServoActivity::Limp,
+            jammed: false,
+            stalled: false,
+        }
     }
 
     /// True angle.
@@ -137,7 +144,9 @@ impl ServoHinge {
             Some(pulse) => {
                 let target_deg = self.config.angle_deg_from(pulse);
                 let room_deg = self.reachable(target_deg) - self.angle_deg;
-                if (target_deg - self.angle_deg).abs() <= self.config.dead_band_deg {
+                if self.stalled {
+                    ServoActivity::Stalled
+                } else if (target_deg - self.angle_deg).abs() <= self.config.dead_band_deg {
                     ServoActivity::Holding
                 } else if self.jammed || room_deg == 0.0 {
                     ServoActivity::Stalled
@@ -165,6 +174,11 @@ impl ServoHinge {
 
     pub(super) fn jam(&mut self) {
         self.jammed = true;
+    }
+
+    /// Blocks the motor, which then pushes whatever it is asked for.
+    pub(super) fn stall(&mut self) {
+        self.stalled = true;
     }
 
     fn reachable(&self, target_deg: f64) -> f64 {

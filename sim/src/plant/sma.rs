@@ -161,7 +161,8 @@ pub struct SmaHinge {
     /// Share of the way from start to end stop, 0 to 1. One-way memory: it never falls.
     travel: f64,
     jammed: bool,
-    heater_open: bool,
+    /// What is left of the heater's resistance: the configured one, a short, or none that conducts.
+    heater_ohm: f64,
     switch_stuck_on: bool,
     pub(super) thermistor: Thermistor,
 }
@@ -183,7 +184,7 @@ impl SmaHinge {
             nodes,
             travel: 0.0,
             jammed: false,
-            heater_open: false,
+            heater_ohm: config.heater_ohm,
             switch_stuck_on: false,
             thermistor: Thermistor::new(config.thermistor, ambient_c),
         }
@@ -216,13 +217,9 @@ impl SmaHinge {
 
     /// What the heater weighs on the supply at `duty` (0 to 1): its mean over many PWM periods.
     pub(super) fn conductance_s(&self, duty: f64) -> f64 {
-        if self.heater_open {
-            0.0
-        } else if self.switch_stuck_on {
-            1.0 / self.config.heater_ohm
-        } else {
-            duty / self.config.heater_ohm
-        }
+        let share = if self.switch_stuck_on { 1.0 } else { duty };
+        // An open heater's resistance is infinite.
+        share / self.heater_ohm
     }
 
     /// Heats with `power_w` for `dt_s` by the midpoint rule, second order. It moves heat between the nodes
@@ -296,7 +293,11 @@ impl SmaHinge {
     }
 
     pub(super) fn break_heater(&mut self) {
-        self.heater_open = true;
+        self.heater_ohm = f64::INFINITY;
+    }
+
+    pub(super) fn short_heater(&mut self, ohm: f64) {
+        self.heater_ohm = ohm;
     }
 
     pub(super) fn stick_switch_on(&mut self) {

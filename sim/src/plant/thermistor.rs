@@ -64,7 +64,7 @@ impl ThermistorConfig {
 }
 
 /// What has become of a thermistor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Condition {
     Sound,
     Open,
@@ -73,6 +73,11 @@ pub(super) enum Condition {
     Frozen(u16),
     /// Hangs in the air beside the foil.
     Loose,
+    /// Reads a temperature that is off, by ever more.
+    Drifting {
+        kelvin_per_s: f64,
+        offset_k: f64,
+    },
 }
 
 /// A thermistor at work.
@@ -93,11 +98,16 @@ impl Thermistor {
     /// Lets the bead follow the foil, which went from `before_c` to `after_c` in `dt_s`. The trapezoidal rule:
     /// second order, and stable for a lag of any length.
     pub(super) fn advance(&mut self, dt_s: f64, before_c: f64, after_c: f64, ambient_c: f64) {
+        if let Condition::Drifting { kelvin_per_s, offset_k } = &mut self.condition {
+            *offset_k += *kelvin_per_s * dt_s;
+        }
         let surroundings_c = match self.condition {
             Condition::Loose => ambient_c,
-            Condition::Sound | Condition::Open | Condition::Shorted | Condition::Frozen(_) => {
-                f64::midpoint(before_c, after_c)
-            }
+            Condition::Sound
+            | Condition::Open
+            | Condition::Shorted
+            | Condition::Frozen(_)
+            | Condition::Drifting { .. } => f64::midpoint(before_c, after_c),
         };
         let r = dt_s / (2.0 * self.config.lag_s);
         self.bead_c = (self.bead_c * (1.0 - r) + 2.0 * r * surroundings_c) / (1.0 + r);
@@ -108,6 +118,9 @@ impl Thermistor {
         self.reading = match self.condition {
             Condition::Sound | Condition::Loose => {
                 quantised(self.config.counts_at(self.bead_c) + noise * self.config.noise_counts)
+            }
+            Condition::Drifting { offset_k, .. } => {
+                quantised(self.config.counts_at(self.bead_c + offset_k) + noise * self.config.noise_counts)
             }
             Condition::Open => ADC_FULL_SCALE,
             Condition::Shorted => 0,

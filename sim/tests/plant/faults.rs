@@ -163,3 +163,98 @@ fn faults_stay() {
         assert_eq!(rig.plant.sense().thermistors[0], ADC_FULL_SCALE);
     }
 }
+
+#[test]
+fn a_drifting_thermistor_reads_off_by_its_rate_while_the_foil_is_what_it_was() {
+    let drift = Fault::ThermistorDrifting { channel: 0, kelvin_per_s: -2.0 };
+    let mut rig = rig_with(drift, 3.0);
+    rig.run(5.0);
+    let readings = rig.plant.sense();
+    let bead_c = rig.plant.sma_hinges()[0].bead_c();
+    assert_near(celsius(readings.thermistors[0]), bead_c - 10.0, 1.0, "its reading");
+    assert_near(rig.foil_c(), rig.plant.sma_hinges()[1].temperature_c(), 0.0, "the truth");
+    assert_near(celsius(readings.thermistors[1]), bead_c, 1.0, "its neighbour");
+}
+
+#[test]
+fn a_shorted_heater_draws_and_heats_as_its_lower_resistance_says() {
+    let mut rig = rig_with(Fault::HeaterShorted { channel: 0, ohm: 12.5 }, 0.0);
+    rig.run(1.0);
+    assert_near(
+        rig.plant.supply_a(),
+        0.4 + 0.2 + 0.01,
+        1e-9,
+        "twice its current, its neighbour and two idle servos",
+    );
+    assert_near(rig.plant.heaters_a(), 0.6, 1e-9, "of which the heaters");
+    let (shorted, sound) = (&rig.plant.sma_hinges()[0], &rig.plant.sma_hinges()[1]);
+    // Below As nothing transforms and the model is linear: twice the power is twice the rise.
+    let (rise, sound_rise) = (shorted.temperature_c() - 22.0, sound.temperature_c() - 22.0);
+    assert_near(rise / sound_rise, 2.0, 1e-6, "rise against the neighbour's");
+    rig.heaters = vec![Duty::OFF; 2];
+    rig.run(0.01);
+    assert_near(rig.plant.heaters_a(), 0.0, 0.0, "it is still switched");
+}
+
+#[test]
+fn a_sagging_supply_gives_its_lower_voltage_behind_its_higher_resistance_and_comes_back() {
+    let sag = Fault::SupplySag { open_circuit_v: 4.0, source_ohm: 1.0 };
+    let mut rig = rig_with(sag, 0.5);
+    rig.run(0.01);
+    // Two heaters of 25 ohm and 10 mA of two servos: V = 4 - 1 (2 V / 25 + 0.01).
+    let volts = (4.0 - 0.01) / 1.08;
+    assert_near(rig.plant.supply_v(), volts, 1e-9, "voltage");
+    assert_near(rig.plant.heaters_a(), 2.0 * volts / 25.0, 1e-9, "current of the heaters");
+    rig.plant.inject(Fault::SupplyRestored).expect("a supply");
+    rig.run(0.01);
+    assert_near(rig.plant.supply_v(), 5.0, 1e-9, "voltage again");
+    rig.plant.inject(Fault::SupplyCut).expect("a supply");
+    rig.plant.inject(Fault::SupplyRestored).expect("a supply");
+    rig.run(0.01);
+    assert_near(rig.plant.supply_v(), 5.0, 1e-9, "voltage after a cut");
+}
+
+#[test]
+fn a_sagging_supply_slows_servos_and_leaves_burn_wires_too_cold() {
+    let mut rig = rig_with(Fault::SupplySag { open_circuit_v: 2.5, source_ohm: 0.0 }, 0.0);
+    rig.heaters = vec![Duty::OFF; 2];
+    rig.servos = vec![Some(PulseMicros(2_500)); 2];
+    rig.springs = vec![true; 2];
+    rig.run(0.4);
+    // Half of 375 degrees a second.
+    assert_near(rig.plant.servo_hinges()[0].angle_deg(), 75.0, 1e-6, "servo");
+    rig.run(2.0);
+    assert!(!rig.plant.spring_hinges()[0].released());
+}
+
+#[test]
+fn a_stalled_servo_stays_and_draws_its_stall_current_even_where_it_is_told_to_be() {
+    let mut rig = rig_with(Fault::ServoStalled(0), 0.0);
+    rig.heaters = vec![Duty::OFF; 2];
+    rig.servos = vec![Some(PulseMicros(500)); 2];
+    rig.run(0.5);
+    let [stalled, sound] = rig.plant.servo_hinges() else { panic!("two servos") };
+    assert_eq!((stalled.activity(), sound.activity()), (ServoActivity::Stalled, ServoActivity::Holding));
+    assert_near(rig.plant.supply_a(), 1.8 + 0.005, 1e-9, "stall current, and one idle servo");
+    rig.servos = vec![Some(PulseMicros(1_500)); 2];
+    rig.run(1.0);
+    assert_near(rig.plant.servo_hinges()[0].angle_deg(), 0.0, 0.0, "its angle");
+    rig.servos = vec![None; 2];
+    rig.run(0.01);
+    assert_near(rig.plant.supply_a(), 0.01, 1e-9, "limp, it draws no more than its neighbour");
+}
+
+#[test]
+fn a_fault_with_an_impossible_number_is_refused_and_breaks_nothing() {
+    let mut rig = rig_with(Fault::ThermistorLoose(1), 0.0);
+    for fault in [
+        Fault::HeaterShorted { channel: 0, ohm: 0.0 },
+        Fault::ThermistorDrifting { channel: 0, kelvin_per_s: f64::NAN },
+        Fault::SupplySag { open_circuit_v: 0.0, source_ohm: 0.1 },
+        Fault::SupplySag { open_circuit_v: 5.0, source_ohm: -0.1 },
+    ] {
+        assert!(matches!(rig.plant.inject(fault), Err(PlantError::Value { .. })), "{fault:?}");
+    }
+    rig.run(0.01);
+    assert_near(rig.plant.supply_a(), 0.4 + 0.01, 1e-9, "two heaters and two idle servos");
+}

@@ -549,3 +549,13 @@ fn s9_a_fault_is_told_after_the_reset_that_followed_it_and_forgotten_when_power_
         assert_eq!(fault, told.then_some(FaultCode::Stopped));
     }
 }
+
+#[test]
+fn s11_a_session_that_a_reset_ended_is_not_opened_again_by_a_hello_that_comes_late() {
+    let mut host = warm_hinge();
+    host.board.reset(ResetCause::Watchdog);
+    host.connect(77);
+    assert!(host.board.core().link_session().is_none(), "it opened the session again");
+    host.connect(78);
+    assert_eq!(host.board.core().link_session(), Some(78));
+}

@@ -21,7 +21,7 @@ impl Schedule {
             }
         }
         let makespan = steps.iter().map(Step::opened).max().unwrap_or_default();
-        Self { steps, makespan, ..self.clone() }
+        Self { makespan, steps, ..self.clone() }
     }
 }
 

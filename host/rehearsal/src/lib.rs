@@ -1,0 +1,30 @@
+//! Rehearsals: the real controller deploys over a simulated line on a simulated board, something goes wrong, and the
+//! outcome is judged by the plant's true temperatures, currents and angles, not by what the firmware says of itself.
+//!
+//! ```text
+//!   Scenario (a file), campaign (chance) --> Trial --run--> Rehearsed --judge--> breaches of the safety rules
+//!                                              |
+//!                          Stage: Line, Board, Script of causes, Witness of the truth
+//! ```
+
+mod board;
+pub mod campaign;
+mod cause;
+mod judge;
+mod run;
+pub mod scenario;
+mod script;
+mod stage;
+mod transport;
+mod wiretap;
+mod witness;
+
+pub use board::{BoardError, board, channels, plant};
+pub use cause::{Cause, Way, What, When};
+pub use judge::{Breach, Excuses, judge, margin_k};
+pub use run::{Ending, Rehearsed, Trial};
+pub use scenario::{Scenario, ScenarioError, Verdict};
+pub use script::Script;
+pub use stage::Stage;
+pub use wiretap::Wiretap;
+pub use witness::{ANGLE_TOLERANCE_DEG, HingeTruth, Span, Watch, Witness};
