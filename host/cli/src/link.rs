@@ -163,7 +163,7 @@ mod checks {
                 figures.share_of_line_rate >= 0.9 && figures.share_of_line_rate < 0.96,
                 "{baud}: {figures:?}"
             );
-            // An event of the MCU may take the room of an answer; then a command is turned away and comes again.
+            // Events of the MCU may take the room of an answer; then a command is turned away and comes again.
             let frames = figures.goodput_bytes_per_s * 10.0 / 128.0;
             assert!(f64::from(figures.repeated_frames) < 0.02 * frames, "{baud}: {figures:?}");
             assert_eq!(figures.damaged_frames, 0, "{baud}");
