@@ -25,7 +25,10 @@ pub(crate) fn set(dead_line: Option<Micros>) {
 }
 
 /// Starts the interrupt.
-#[expect(unsafe_code, reason = "unmasking an interrupt whose handler stands below, and that no critical section relies on")]
+#[expect(
+    unsafe_code,
+    reason = "unmasking an interrupt whose handler stands below, and that no critical section relies on"
+)]
 pub(crate) fn watch() {
     RCC.apb1enr().modify(|enable| enable.set_tim7en(true));
     TIM7.psc().write_value(PRESCALER);

@@ -1,7 +1,7 @@
 //! Rules that are known not to hold today, each with what it takes: such breaches are counted apart, so that a
 //! campaign fails for what is new. A line is taken off as soon as its rule holds.
 
-use crate::cause::{Way, What};
+use crate::cause::What;
 use crate::judge::Breach;
 use crate::run::Rehearsed;
 
@@ -13,26 +13,7 @@ struct Gap {
     needs: &'static [fn(&What, &Breach) -> bool],
 }
 
-const REPLAYED: &str =
-    "S11: a session that is replayed from its hello on is executed again, after a reset or another session";
-
-const GAPS: &[Gap] = &[
-    Gap {
-        rule: "end",
-        about: "a host whose commands don't get through, but who hears the board, waits for ever",
-        needs: &[|what, _| matches!(what, What::Cut(Way::ToBoard, None))],
-    },
-    Gap { rule: "S11", about: REPLAYED, needs: &[|what, _| matches!(what, What::Replay)] },
-    Gap {
-        // What such a second run does to hinges that the host knows to be open.
-        rule: "S12",
-        about: REPLAYED,
-        needs: &[
-            |what, _| matches!(what, What::Replay),
-            |what, _| matches!(what, What::Reset(_) | What::Hang(_) | What::SecondHost),
-        ],
-    },
-];
+const GAPS: &[Gap] = &[];
 
 /// The gap that a breach belongs to.
 pub(super) fn gap(rehearsed: &Rehearsed, breach: &Breach) -> Option<&'static str> {
