@@ -73,7 +73,7 @@ fn find(code: &str) -> Option<Entry> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(code) = &arguments.code else {
         if arguments.json {
-            say(format_args!("{:#}", Value::from_iter(entries().map(|entry| entry.json()))));
+            say(format_args!("{:#}", entries().map(|entry| entry.json()).collect::<Value>()));
         } else {
             entries()
                 .for_each(|entry| say(format_args!("{} {}: {}", entry.code, entry.name, entry.text.meaning)));
