@@ -210,8 +210,7 @@ impl World {
         let frame =
             if mutant == Mutant::TakesRepetitions { renumbered(frame, &self.mcu) } else { frame.to_vec() };
         let mut bytes = frame.as_slice();
-        loop {
-            let Some(received) = self.mcu.receive_with_room(Micros(self.mcu_now), &mut bytes) else { break };
+        while let Some(received) = self.mcu.receive_with_room(Micros(self.mcu_now), &mut bytes) {
             match received {
                 Received::Hello(session, _) => {
                     let replaced = self.mcu.was_replaced(session) && mutant != Mutant::OpensReplaced;

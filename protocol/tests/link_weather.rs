@@ -148,7 +148,7 @@ impl End {
     }
 
     fn take(&mut self, now: u64, chunk: &[u8]) {
-        let ends = chunk.iter().filter(|byte| **byte == 0).count();
+        let ends = chunk.split(|byte| *byte == 0).count() - 1;
         let mut news = 0;
         let mut bytes = chunk;
         loop {
@@ -162,7 +162,7 @@ impl End {
                     self.got.entry(of).or_default().push(number);
                 }
                 Received::Urgent(payload) => self.urgent.push(decode_payload(payload).unwrap()),
-                Received::Telemetry(_) => {}
+
                 Received::Hello(of, _) if self.is_mcu => {
                     let is_new = session != Some(of) && !self.link.was_replaced(of);
                     if is_new {
@@ -179,7 +179,7 @@ impl End {
                 // An MCU heeds no reset: a host that isn't open yet may say so of what overtook the answer to its hello.
                 Received::Reset if self.is_mcu => {}
                 Received::Reset => self.want(session.unwrap_or(NO_SESSION) + 1, now),
-                Received::Hello(..) => {}
+                Received::Telemetry(_) | Received::Hello(..) => {}
             }
         }
         assert!(news <= ends, "{news} pieces of news from {ends} frames");
@@ -276,7 +276,8 @@ fn converse(weather: Weather, seed: u64, count: u32, mut deeds: Vec<(u64, Deed)>
     let mut deeds = VecDeque::from(deeds);
     let (mut now, mut next_session) = (0, 2);
     loop {
-        while let Some((_, deed)) = deeds.pop_front_if(|(at, _)| *at <= now) {
+        while let Some((_, deed)) = deeds.front().copied().filter(|(at, _)| *at <= now) {
+            deeds.pop_front();
             match deed {
                 Deed::Replace => {
                     next_session = next_session.max(host.link.session().unwrap_or(NO_SESSION) + 1);
@@ -384,7 +385,9 @@ fn a_line_that_comes_back_after_a_minute_of_silence_carries_the_rest() {
         host.speak(now, there);
         mcu.speak(now, back);
         if dead.contains(&now) {
-            line.iter_mut().for_each(|line| line.under_way.clear());
+            for line in &mut line {
+                line.under_way.clear();
+            }
         }
         now += 1_000;
     }

@@ -10,7 +10,7 @@ use zygote_protocol::{
     Action, CentiCelsius, Command, Decoder, Event, EventKind, Fault, FaultCode, FrameKind, Header, Heat,
     Hello, Limits, MAX_ENCODED, Micros, Milliamps, Millis, Millivolts, Motion, Phase, Refusal, RefusalCode,
     Release, Reply, Report, Request, Response, State, Status, Step, StepState, Telemetry, Turn, Urgent,
-    decode_payload, encode,
+    encode,
 };
 
 fn heat() -> Step {

@@ -65,7 +65,7 @@ fn codec(criterion: &mut Criterion) {
         group.bench_function("encode", |b| b.iter(|| encode(HEADER, black_box(&payload), &mut out)));
         let mut decoder = Decoder::new();
         group.bench_function("decode", |b| {
-            b.iter(|| decoder.next(&mut black_box(wire.as_slice())).unwrap().is_ok())
+            b.iter(|| decoder.next(&mut black_box(wire.as_slice())).unwrap().is_ok());
         });
     }
 }
@@ -98,7 +98,7 @@ fn input(criterion: &mut Criterion) {
     let noise: Vec<u8> =
         (0..MAX_ENCODED).map(|at| u8::try_from(1 + at * 31 % 251).unwrap()).chain([0]).collect();
     criterion.bench_function("handle_bytes: 254 bytes of noise", |b| {
-        b.iter(|| core.handle_bytes(NOW, black_box(&noise)))
+        b.iter(|| core.handle_bytes(NOW, black_box(&noise)));
     });
 }
 

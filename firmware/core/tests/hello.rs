@@ -1,4 +1,5 @@
 //! Who may open a session, and what the core answers to those who may not.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use zygote_core::{Config, Core, NTC_10K};
 use zygote_protocol::{
