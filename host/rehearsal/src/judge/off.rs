@@ -5,7 +5,7 @@ use crate::cause::What;
 use crate::run::Rehearsed;
 use crate::witness::{HingeTruth, Span, Witness};
 use zygote_deployment::Kind;
-use zygote_protocol::{Micros, Millis};
+use zygote_protocol::{Micros, Millis, State};
 use zygote_sim::TICK;
 use zygote_sim::plant::Fault;
 
