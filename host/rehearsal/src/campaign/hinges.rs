@@ -101,7 +101,7 @@ fn sma_with(
         "kind": "sma",
         "target_centi_celsius": centi(target_c),
         "hold_ms": 500,
-        "max_on_ms": 30_000,
+        "max_on_ms": 45_000,
         "max_temperature_centi_celsius": centi(max_c),
         "cool_to_centi_celsius": centi(sma.alloy.as_c - 8.0),
         "rest_ms": 500,

@@ -5,7 +5,7 @@ use crate::cause::What;
 use crate::run::Rehearsed;
 use crate::witness::{HingeTruth, Span, Witness};
 use zygote_deployment::Kind;
-use zygote_protocol::{Micros, Millis};
+use zygote_protocol::{Micros, Millis, State};
 use zygote_sim::TICK;
 use zygote_sim::plant::Fault;
 
@@ -41,8 +41,14 @@ pub(super) fn judge(rehearsed: &Rehearsed) -> Vec<Breach> {
     for (at, what) in rehearsed.script.happened() {
         let Some((rule, deadline)) = deadline(witness, at, what) else { continue };
         let deadline = deadline.max(stuck_until(rehearsed, at));
-        if let Some(span) = witness.energised.iter().find(|span| span.to > deadline && span.from <= deadline)
-        {
+        // Armed anew after the cause is another matter, which S2 and S11 judge; but not for a sensor that is still dead.
+        let anew = |span: &Span| {
+            let armed =
+                |(when, state): &(Micros, State)| *state == State::Armed && at < *when && *when <= span.from;
+            rule != "S5" && witness.states.iter().any(armed)
+        };
+        let still = |span: &&Span| span.to > deadline && span.from <= deadline && !anew(span);
+        if let Some(span) = witness.energised.iter().find(still) {
             let (until, due) = (seconds(span.to), seconds(deadline));
             let over = format!("{what}: current until {until:.3} s, off was due at {due:.3} s");
             breaches.push(Breach::new(rule, at, over));
