@@ -4,6 +4,7 @@
 use crate::cause::What;
 use crate::judge::Breach;
 use crate::run::Rehearsed;
+use zygote_protocol::ResetCause;
 
 /// A gap that is known.
 struct Gap {
@@ -13,7 +14,15 @@ struct Gap {
     needs: &'static [fn(&What, &Breach) -> bool],
 }
 
-const GAPS: &[Gap] = &[];
+const REPLAYED: &str = "a session that is replayed from its hello on is executed again after power was off: nothing is kept over that";
+const REPLAY_AFTER_POWER: &[fn(&What, &Breach) -> bool] =
+    &[|what, _| matches!(what, What::Replay), |what, _| matches!(what, What::Reset(ResetCause::Power))];
+
+const GAPS: &[Gap] = &[
+    Gap { rule: "S11", about: REPLAYED, needs: REPLAY_AFTER_POWER },
+    // What such a second run does to hinges that the host knows to be open.
+    Gap { rule: "S12", about: REPLAYED, needs: REPLAY_AFTER_POWER },
+];
 
 /// The gap that a breach belongs to.
 pub(super) fn gap(rehearsed: &Rehearsed, breach: &Breach) -> Option<&'static str> {
