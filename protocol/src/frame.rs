@@ -7,6 +7,7 @@
 //! The checksum covers everything before it. A frame is at most 251 bytes, so that COBS adds exactly one.
 
 use crate::crc::crc32;
+use cobs::{DecodeResult, DecoderState};
 use core::hash::{Hash, Hasher};
 use serde::{Deserialize, Serialize};
 
@@ -174,8 +175,7 @@ impl Decoder {
 
     fn check(&mut self, length: usize) -> Result<Header, FrameError> {
         self.payload_length = 0;
-        let encoded = self.buffer.get_mut(..length).ok_or(FrameError::TooLong)?;
-        let raw_length = cobs::decode_in_place(encoded).map_err(|_| FrameError::BadCobs)?;
+        let raw_length = self.unstuff(length).ok_or(FrameError::BadCobs)?;
         let raw = self.buffer.get(..raw_length).ok_or(FrameError::BadCobs)?;
         let (body, sum) = raw.split_last_chunk::<CRC>().ok_or(FrameError::TooShort)?;
         if crc32(body) != u32::from_le_bytes(*sum) {
@@ -186,6 +186,26 @@ impl Decoder {
         let kind = FrameKind::from_byte(kind).ok_or(FrameError::UnknownKind)?;
         self.payload_length = payload.len();
         Ok(Header { kind, session: u32::from_le_bytes([s0, s1, s2, s3]), seq, ack })
+    }
+}
+
+impl Decoder {
+    /// Undoes COBS in place and returns the length of what was in it. Byte by byte: what comes out is never longer than what
+    /// went in, and no index can be out of bounds.
+    fn unstuff(&mut self, length: usize) -> Option<usize> {
+        let mut state = DecoderState::Idle;
+        let mut raw_length = 0;
+        for at in 0..length {
+            match state.feed(*self.buffer.get(at)?).ok()? {
+                DecodeResult::DataStart | DecodeResult::NoData => {}
+                DecodeResult::DataContinue(byte) => {
+                    *self.buffer.get_mut(raw_length)? = byte;
+                    raw_length += 1;
+                }
+                DecodeResult::DataComplete => return None,
+            }
+        }
+        matches!(state.feed(0), Ok(DecodeResult::DataComplete)).then_some(raw_length)
     }
 }
 

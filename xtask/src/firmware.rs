@@ -1,5 +1,6 @@
 //! `cargo xtask firmware`: builds every board, prints its sections, and holds it to its memory;
-//! then the same for codec and link alone (`firmware/link-size`).
+//! then the same for codec and link alone (`firmware/link-size`), and for the whole core without board (`firmware/core-figures`), which
+//! links only if no panic is left in it.
 //!
 //! Where rustup has the target, the board is built as usual. Where it hasn't (a machine that cannot fetch one),
 //! Debian's compiler builds the core library from Debian's copy of its source; see
@@ -20,6 +21,9 @@ const BUDGET: sections::Budget = sections::Budget { flash: 128 * 1024, ram: 32 *
 /// What codec and link alone may take of it.
 const LINK_BUDGET: sections::Budget = sections::Budget { flash: 24 * 1024, ram: 6 * 1024 };
 
+/// What the core may take, with 48 channels.
+const CORE_BUDGET: sections::Budget = sections::Budget { flash: 56 * 1024, ram: 20 * 1024 };
+
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_PACKAGES: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "lld"];
@@ -34,7 +38,9 @@ pub(crate) fn run() -> Result<()> {
             board.file_name().and_then(|name| name.to_str()).context("a board's folder isn't UTF-8")?;
         measure(&toolchain, &board, name, BUDGET)?;
     }
-    measure(&toolchain, &tools::root().join("firmware/link-size"), "link-size", LINK_BUDGET)
+    let firmware = tools::root().join("firmware");
+    measure(&toolchain, &firmware.join("link-size"), "link-size", LINK_BUDGET)?;
+    measure(&toolchain, &firmware.join("core-figures"), "core-figures", CORE_BUDGET)
 }
 
 /// Builds what is in a folder, prints its sections, and holds it to its memory.

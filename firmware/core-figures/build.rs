@@ -1,0 +1,6 @@
+//! Names the linker script.
+
+fn main() {
+    println!("cargo::rustc-link-arg=-T{}/link.x", env!("CARGO_MANIFEST_DIR"));
+    println!("cargo::rerun-if-changed=link.x");
+}
