@@ -379,6 +379,54 @@ mod tests {
     }
 
     #[test]
+    fn s6_what_is_just_enough_trips_nothing() {
+        // The least gain, at the end of the window.
+        let mut heater = SmaHeater::start(SPEC, ms(0), COLD);
+        let mut warming = (0..20).map(|at| 2_200 + at).chain([2_700]);
+        assert_eq!(feed(&mut heater, 0, &mut warming), None);
+        // The largest fall, and the largest sag.
+        let (mut heater, now) = heated(6_000);
+        assert_eq!(feed(&mut heater, now, &mut [6_010, 5_510, 5_520].into_iter()), None);
+        let (mut heater, now) = heated(9_000);
+        assert_eq!(feed(&mut heater, now, &mut [8_400, 8_000, 8_010].into_iter()), None);
+        assert_eq!(heater.step_state(), StepState::Moving);
+    }
+
+    #[test]
+    fn s6_cooling_is_watched_window_by_window_and_a_kelvin_will_do() {
+        let (mut heater, now) = heated(9_000);
+        assert_eq!(feed(&mut heater, now, &mut [9_050, 9_060].into_iter().cycle().take(11)), None);
+        // Reached with the last reading of heating, and held for a second.
+        let off = now + 900;
+        let at = |heater: &mut SmaHeater, after: u64, reading| {
+            heater.advance(ms(off + after), CentiCelsius(reading))
+        };
+        assert_eq!(at(&mut heater, 9_990, 9_050), Ok(()), "the first window isn't over");
+        assert_eq!(at(&mut heater, 10_000, 8_950), Ok(()), "a kelvin below where it was held");
+        assert_eq!(at(&mut heater, 19_990, 8_950), Ok(()));
+        let trip = at(&mut heater, 20_000, 8_900).unwrap_err();
+        assert_eq!(
+            (trip.code, trip.value),
+            (FaultCode::NoCooling, 50),
+            "half a kelvin since the window before"
+        );
+    }
+
+    #[test]
+    fn the_phases_are_told_with_temperature_and_power() {
+        let warm = CentiCelsius(9_100);
+        let mut heater = SmaHeater::start(SPEC, ms(0), COLD);
+        heater.advance(ms(0), COLD).unwrap();
+        assert_eq!(heater.phase(COLD), Some(Phase::Heating { temperature: COLD, duty: 1000 }));
+        heater.advance(ms(1_000), warm).unwrap();
+        assert_eq!(heater.phase(warm), Some(Phase::Holding { temperature: warm, duty: 750 }));
+        heater.advance(ms(2_000), warm).unwrap();
+        assert_eq!(heater.phase(warm), Some(Phase::Cooling { temperature: warm }));
+        heater.advance(ms(3_000), COLD).unwrap();
+        assert_eq!(heater.phase(COLD), None);
+    }
+
+    #[test]
     fn power_falls_to_nothing_above_the_band() {
         assert_eq!(thermostat(SPEC.target, CentiCelsius(9_400)), Duty::OFF);
         assert_eq!(thermostat(SPEC.target, CentiCelsius(i16::MAX)), Duty::OFF);

@@ -158,4 +158,58 @@ mod tests {
         // About 130 °C.
         assert_eq!(warmed_to(120, true), Err(FaultCode::OverTemperature));
     }
+
+    #[test]
+    fn s5_readings_at_the_edge_of_what_is_believable_are_believed() {
+        // About -45 °C and about 250 °C: far apart, so each in a guard of its own.
+        for counts in [OPEN_ABOVE, SHORTED_BELOW] {
+            let mut guard = ThermalGuard::NEW;
+            for _ in 0..5 {
+                guard.sample(counts, &NTC_10K);
+                assert_eq!(
+                    (guard.bad, guard.temperature()),
+                    (0, Some(NTC_10K.temperature(counts))),
+                    "{counts}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn s5_the_largest_change_that_is_no_jump_is_believed() {
+        let reading = |celsius: i16| {
+            (0..=ADC_FULL_SCALE).rev().find(|counts| NTC_10K.temperature(*counts).0 >= celsius)
+        };
+        let (cold, warm) = (reading(2_200).unwrap(), reading(4_100).unwrap());
+        let mut guard = ThermalGuard::NEW;
+        guard.sample(cold, &NTC_10K);
+        let change = NTC_10K.temperature(warm).0 - NTC_10K.temperature(cold).0;
+        assert!((1_800..=JUMP.0).contains(&change), "{change}");
+        // As far as a jump is from it, to the hundredth.
+        guard.last = Some(CentiCelsius(NTC_10K.temperature(warm).0 - JUMP.0));
+        guard.sample(warm, &NTC_10K);
+        assert_eq!(guard.bad, 0);
+    }
+
+    #[test]
+    fn s4_a_hinge_exactly_at_its_limit_and_a_rise_exactly_as_far_as_allowed_trip_nothing() {
+        let mut guard = ThermalGuard { last: Some(MAX), ..ThermalGuard::NEW };
+        assert_eq!(guard.check(true, MAX), Ok(()));
+        let mut guard = ThermalGuard { last: Some(CentiCelsius(2_200)), ..ThermalGuard::NEW };
+        assert_eq!(guard.check(false, MAX), Ok(()));
+        guard.last = Some(CentiCelsius(2_200 + UNHEATED_RISE.0));
+        assert_eq!(guard.check(false, MAX), Ok(()));
+        guard.last = Some(CentiCelsius(2_201 + UNHEATED_RISE.0));
+        assert!(guard.check(false, MAX).is_err());
+    }
+
+    #[test]
+    fn a_restart_forgets_what_another_hinge_did() {
+        let mut guard = ThermalGuard::NEW;
+        read(&mut guard, COLD, false).unwrap();
+        guard.restart();
+        assert_eq!(guard.temperature(), None);
+        // A warm hinge in its place is no rise.
+        assert_eq!(read(&mut guard, WARM, false), Ok(()));
+    }
 }
