@@ -402,9 +402,9 @@ mod tests {
             heater.advance(ms(off + after), CentiCelsius(reading))
         };
         assert_eq!(at(&mut heater, 9_990, 9_050), Ok(()), "the first window isn't over");
-        assert_eq!(at(&mut heater, 10_000, 8_950), Ok(()), "a kelvin below where it was held");
-        assert_eq!(at(&mut heater, 19_990, 8_950), Ok(()));
-        let trip = at(&mut heater, 20_000, 8_900).unwrap_err();
+        assert_eq!(at(&mut heater, 10_000, 8_960), Ok(()), "a kelvin below where it was when it opened");
+        assert_eq!(at(&mut heater, 19_990, 8_960), Ok(()));
+        let trip = at(&mut heater, 20_000, 8_910).unwrap_err();
         assert_eq!(
             (trip.code, trip.value),
             (FaultCode::NoCooling, 50),
