@@ -10,10 +10,13 @@
 //! | 4 | n, n bytes | a request in sequence |
 //! | 5 | session | a hello |
 
-use zygote_core::{Config, Core, Duty, Inputs, NTC_10K};
+#[path = "../../firmware/core/tests/a_board/mod.rs"]
+mod a_board;
+
+use zygote_core::{Core, Duty, Inputs};
 use zygote_protocol::{
-    CentiCelsius, Channels, Decoder, FrameKind, Header, Hello, Identity, Limits, MAX_ENCODED, MAX_PAYLOAD,
-    Micros, Milliamps, Millis, Millivolts, ResetCause, State, WINDOW, encode,
+    Decoder, FrameKind, Header, Hello, MAX_ENCODED, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts,
+    State, WINDOW, encode,
 };
 
 const KINDS: [FrameKind; 9] = [
@@ -47,24 +50,7 @@ struct Rig {
 
 impl Rig {
     fn new() -> Self {
-        let identity = Identity {
-            boot: 7,
-            firmware: heapless::String::new(),
-            git: heapless::String::new(),
-            board: heapless::String::new(),
-            unique_id: [0; 12],
-            reset: ResetCause::Power,
-        };
-        let ceiling = Limits {
-            max_temperature: CentiCelsius(12_000),
-            max_on: Millis(20_000),
-            min_rest: Millis(500),
-            supply: Milliamps(1_000),
-            link_timeout: Millis(1_000),
-        };
-        let channels = Channels { heaters: 2, servos: 1, springs: 1 };
-        let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
-        let core = Core::new(config, Micros(0), None);
+        let core = Core::new(a_board::config(2, 1, 1), Micros(0), None);
         Self {
             core,
             now: Micros(0),

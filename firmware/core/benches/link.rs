@@ -2,40 +2,22 @@
 #![expect(missing_docs, reason = "the macros write functions without any")]
 #![expect(clippy::unwrap_used, reason = "a benchmark that fails has to stop")]
 
+#[path = "../tests/a_board/mod.rs"]
+mod a_board;
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use zygote_core::{Config, Core, NTC_10K};
+use zygote_core::Core;
 use zygote_protocol::{
-    CentiCelsius, Channels, Command, Decoder, FrameKind, Header, Hello, Identity, Limits, Link, MAX_ENCODED,
-    MAX_PAYLOAD, Micros, Milliamps, Millis, Request, ResetCause, encode,
+    Command, Decoder, FrameKind, Header, Hello, Link, MAX_ENCODED, MAX_PAYLOAD, Micros, Request, encode,
 };
 
 const NOW: Micros = Micros(1_000);
 const HEADER: Header = Header { kind: FrameKind::Data, session: 1, seq: 2, ack: 3 };
 
 fn core() -> Core<16, 8, 8, 128> {
-    let identity = Identity {
-        boot: 7,
-        firmware: heapless::String::new(),
-        git: heapless::String::new(),
-        board: heapless::String::new(),
-        unique_id: [0; 12],
-        reset: ResetCause::Power,
-    };
-    let ceiling = Limits {
-        max_temperature: CentiCelsius(12_000),
-        max_on: Millis(20_000),
-        min_rest: Millis(500),
-        supply: Milliamps(1_000),
-        link_timeout: Millis(1_000),
-    };
-    let channels = Channels { heaters: 16, servos: 8, springs: 8 };
-    Core::new(
-        Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 },
-        NOW,
-        None,
-    )
+    Core::new(a_board::config(16, 8, 8), NOW, None)
 }
 
 fn frame(link: &mut Link) -> Vec<u8> {

@@ -1,11 +1,12 @@
 //! What a bad line or a bad host sends: each is refused or thrown away, and nothing has changed (S11).
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use zygote_core::{Config, Core, NTC_10K, Outputs};
+mod a_board;
+
+use zygote_core::{Core, Outputs};
 use zygote_protocol::{
-    CentiCelsius, Channels, Command, Decoder, FrameKind, Header, Hello, Identity, Limits, MAX_ENCODED,
-    Micros, Milliamps, Millis, Reply, Report, Request, ResetCause, RigId, State, VERSION, WINDOW,
-    decode_payload, encode,
+    Command, Decoder, FrameKind, Header, Hello, MAX_ENCODED, Micros, Millis, Reply, Report, Request, RigId,
+    State, VERSION, WINDOW, decode_payload, encode,
 };
 
 type TheCore = Core<1, 1, 1, 4>;
@@ -20,24 +21,8 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
-        let identity = Identity {
-            boot: 7,
-            firmware: heapless::String::new(),
-            git: heapless::String::new(),
-            board: heapless::String::new(),
-            unique_id: [0; 12],
-            reset: ResetCause::Power,
-        };
-        let ceiling = Limits {
-            max_temperature: CentiCelsius(12_000),
-            max_on: Millis(20_000),
-            min_rest: Millis(500),
-            supply: Milliamps(1_000),
-            link_timeout: Millis(1_000),
-        };
-        let channels = Channels { heaters: 1, servos: 1, springs: 1 };
-        let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
-        let mut bench = Self { core: Core::new(config, Micros(0), None), now: Micros(1_000) };
+        let mut bench =
+            Self { core: Core::new(a_board::config(1, 1, 1), Micros(0), None), now: Micros(1_000) };
         assert_eq!(bench.hello(SESSION).len(), 1);
         bench
     }

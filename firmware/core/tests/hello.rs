@@ -1,33 +1,18 @@
 //! Who may open a session, and what the core answers to those who may not.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use zygote_core::{Config, Core, NTC_10K};
+mod a_board;
+
+use zygote_core::Core;
 use zygote_protocol::{
-    CentiCelsius, Channels, Decoder, FrameKind, Header, Hello, HelloReply, Identity, Limits, MAX_ENCODED,
-    Micros, Milliamps, Millis, NO_SESSION, ResetCause, VERSION, VERSION_MIN, decode_payload, encode, schema,
+    Decoder, FrameKind, Header, Hello, HelloReply, MAX_ENCODED, Micros, Millis, NO_SESSION, VERSION,
+    VERSION_MIN, decode_payload, encode, schema,
 };
 
 const NOW: Micros = Micros(1_000);
 
 fn core() -> Core<1, 1, 1, 4> {
-    let identity = Identity {
-        boot: 7,
-        firmware: heapless::String::new(),
-        git: heapless::String::new(),
-        board: heapless::String::new(),
-        unique_id: [0; 12],
-        reset: ResetCause::Power,
-    };
-    let ceiling = Limits {
-        max_temperature: CentiCelsius(12_000),
-        max_on: Millis(20_000),
-        min_rest: Millis(500),
-        supply: Milliamps(1_000),
-        link_timeout: Millis(1_000),
-    };
-    let channels = Channels { heaters: 1, servos: 1, springs: 1 };
-    let config = Config { identity, ceiling, channels, thermistor: NTC_10K, servo_pulse_us: 500..=2_500 };
-    Core::new(config, NOW, None)
+    Core::new(a_board::config(1, 1, 1), NOW, None)
 }
 
 /// What the core answers to a hello frame of these bytes.
