@@ -38,7 +38,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-sim",
         ],
     ),
-    ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol"]),
+    ("zygote-parts", &["zygote-core", "zygote-protocol"]),
+    ("zygote-stm32f4", &["zygote-core", "zygote-parts", "zygote-protocol"]),
+    ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol", "zygote-stm32f4"]),
     ("xtask", &[]),
 ];
 
@@ -48,7 +50,7 @@ type Arrow = (String, String);
 /// Checks the host workspace and every board.
 pub(crate) fn run() -> Result<()> {
     let mut manifests = vec![tools::root().join("Cargo.toml")];
-    manifests.extend(firmware::boards()?.iter().map(|board| board.join("Cargo.toml")));
+    manifests.extend(firmware::outside()?.iter().map(|folder| folder.join("Cargo.toml")));
     let (mut crates, mut arrows) = (BTreeSet::new(), BTreeSet::new());
     for manifest in manifests {
         let mut metadata = cargo();

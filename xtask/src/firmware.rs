@@ -57,6 +57,13 @@ fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::B
     sections::hold_to(&sections, budget).with_context(|| format!("{name} is too large"))
 }
 
+/// The boards, and what they share: crates outside of the host workspace.
+pub(crate) fn outside() -> Result<Vec<PathBuf>> {
+    let mut folders = boards()?;
+    folders.push(tools::root().join("firmware/stm32f4"));
+    Ok(folders)
+}
+
 /// The folders of the boards, in alphabetical order.
 pub(crate) fn boards() -> Result<Vec<PathBuf>> {
     let folder = tools::root().join("firmware/boards");

@@ -25,12 +25,12 @@ pub(crate) fn config(boot: u32, reset: ResetCause) -> Config {
         unique_id: embassy_stm32::uid::uid(),
         reset,
     };
-    // No servo on this board yet; the range is that of common ones.
     Config {
         identity,
         ceiling: CEILING,
         channels: CHANNELS,
         thermistor: NTC_10K,
+        // That of common servos.
         servo_pulse_us: 500..=2_500,
     }
 }

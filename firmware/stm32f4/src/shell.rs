@@ -3,9 +3,8 @@
 
 use crate::{
     actuators::Actuators,
-    dead_man,
-    pins::{HEATERS, SERVOS, SPRINGS, STEPS},
-    reset,
+    board::{HEATERS, SERVOS, SPRINGS, STEPS},
+    dead_man, reset,
 };
 use core::cell::RefCell;
 use embassy_sync::{
