@@ -551,11 +551,16 @@ fn s9_a_fault_is_told_after_the_reset_that_followed_it_and_forgotten_when_power_
 }
 
 #[test]
-fn s11_a_session_that_a_reset_ended_is_not_opened_again_by_a_hello_that_comes_late() {
-    let mut host = warm_hinge();
-    host.board.reset(ResetCause::Watchdog);
-    host.connect(77);
-    assert!(host.board.core().link_session().is_none(), "it opened the session again");
-    host.connect(78);
-    assert_eq!(host.board.core().link_session(), Some(78));
+fn s11_a_whole_session_that_is_said_again_after_a_reset_moves_nothing() {
+    for cause in [ResetCause::Power, ResetCause::Watchdog] {
+        let mut host = warm_hinge();
+        let replayed = host.said.clone();
+        host.board.reset(cause);
+        host.board.receive(&replayed);
+        host.board.transmit(&mut Vec::new());
+        let core = host.board.core();
+        assert_eq!((core.state(), core.step_states().count()), (State::Idle, 0), "{cause:?}");
+        host.connect(78);
+        only_cools(&mut host);
+    }
 }
