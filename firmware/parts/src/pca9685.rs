@@ -140,7 +140,6 @@ fn counts(pulse: PulseMicros) -> u16 {
 }
 
 #[cfg(test)]
-#[expect(clippy::indexing_slicing, reason = "a chip's registers are indexed by their numbers")]
 mod tests {
     extern crate std;
     use super::*;

@@ -57,7 +57,7 @@ fn settings_outlive_a_thousand_starts_and_sectors_take_turns() {
         let told;
         (flash, told, _) = life(flash, None);
         assert_eq!(told, Some(FIRST + start));
-        let mut memory = open(flash);
+        let memory = open(flash);
         assert_eq!(memory.settings(), Ok(Some(settings(1))));
         flash = memory.into_flash();
     }
@@ -121,7 +121,7 @@ fn no_number_of_a_start_comes_back_however_often_power_fails() {
                 assert!(start > last, "seed {seed}, life {life_number}: {start:#x} after {last:#x}");
                 (last, starts) = (start, starts + 1);
             }
-            let mut memory = open(flash);
+            let memory = open(flash);
             let found = memory.settings().unwrap().map(|found| found.ceiling.max_on.0);
             assert!(
                 found.is_some_and(|found| found >= kept && found <= life_number),
