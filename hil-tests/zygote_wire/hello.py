@@ -54,6 +54,15 @@ class Limits:
 
 
 @dataclasses.dataclass(frozen=True)
+class Settings:
+    """What a board keeps over power cycles."""
+
+    ceiling: Limits
+    shortest_pulse_us: U16
+    longest_pulse_us: U16
+
+
+@dataclasses.dataclass(frozen=True)
 class Channels:
     """How many actuators of each kind there are."""
 

@@ -2,7 +2,9 @@
 
 use crate::{
     actuators::Actuators,
-    dead_man, reset,
+    dead_man,
+    memory::Keeping,
+    reset,
     safe_state::{self, Held},
     sensors::Sensors,
     servo_bus::{self, ServoBus},
@@ -17,6 +19,7 @@ use embassy_stm32::{
     gpio::{Level, Output, Pin, Speed},
     interrupt,
     interrupt::{InterruptExt, Priority},
+    peripherals::FLASH,
     usart::{BufferedUartRx, BufferedUartTx},
 };
 use static_cell::StaticCell;
@@ -51,6 +54,8 @@ pub struct Board {
     pub servos: ServoBus,
     /// The servo driver's enable pin, high.
     pub servos_enable: Output<'static>,
+    /// What outlives power.
+    pub flash: Peri<'static, FLASH>,
 }
 
 /// An interrupt without use on these boards: it carries the high executor.
@@ -86,30 +91,40 @@ pub fn low(pin: Peri<'static, impl Pin>) -> Output<'static> {
 pub fn run(board: Board) -> ! {
     static LOW: StaticCell<Executor> = StaticCell::new();
 
-    let Board { config, actuators, mut sensors, receiver, transmitter, servos, servos_enable } = board;
+    let Board { config, actuators, mut sensors, receiver, transmitter, servos, servos_enable, flash } = board;
     supervisor::unleash();
     servo_gate::install(servos_enable);
 
     let (cause, kept) = (reset::cause(), reset::kept());
     // After power was off memory holds anything, even something that looks whole.
     let kept = kept.filter(|_| cause != ResetCause::Power);
-    let config = config(reset::boot_id(sensors.noise()), cause);
+    let mut keeping = Keeping::open(flash);
+    // The first start of all is numbered by chance; without memory every one is.
+    let chance = reset::chance(sensors.noise());
+    let boot = keeping.count_start(chance).unwrap_or(chance);
+    let start = Start { config: config(boot, cause), kept, keeping };
 
     // Below the interrupts of time, line, stop button and dead man's switch, above the low executor.
     carrier!().set_priority(Priority::P6);
     let high = HIGH.start(carrier!());
-    high.spawn(defmt::unwrap!(start(config, kept, actuators, sensors, receiver, transmitter)));
+    high.spawn(defmt::unwrap!(begin(start, actuators, sensors, receiver, transmitter)));
     LOW.init(Executor::new()).run(|spawner| {
         spawner.spawn(defmt::unwrap!(servo_bus::serve(servos)));
         spawner.spawn(defmt::unwrap!(supervisor::supervise()));
     })
 }
 
-/// Builds the core where it lives, on the high executor, and spawns the tasks around it.
-#[embassy_executor::task]
-async fn start(
+/// What the core starts with.
+struct Start {
     config: Config,
     kept: Option<Snapshot>,
+    keeping: Keeping,
+}
+
+/// Builds the core where it lives, on the high executor, and spawns the tasks around it.
+#[embassy_executor::task]
+async fn begin(
+    start: Start,
     actuators: Actuators,
     sensors: Sensors,
     receiver: BufferedUartRx<'static>,
@@ -118,8 +133,12 @@ async fn start(
     static SHELL: StaticCell<Shell> = StaticCell::new();
     #[expect(unsafe_code, reason = "nothing else asks for it; this is a task of an executor")]
     let spawner = unsafe { Spawner::for_current_executor().await };
-    let core = BoardCore::new(config, shell::now(), kept);
-    let shell = SHELL.init(Shell::new(core, actuators));
+    let Start { config, kept, keeping } = start;
+    let mut core = BoardCore::new(config, shell::now(), kept);
+    if let Some(settings) = keeping.settings() {
+        core.restore(&settings);
+    }
+    let shell = SHELL.init(Shell::new(core, actuators, keeping));
     dead_man::watch();
     spawner.spawn(defmt::unwrap!(tasks::control(shell, sensors)));
     spawner.spawn(defmt::unwrap!(tasks::receive(shell, receiver)));

@@ -11,7 +11,9 @@
 
 mod actuators;
 mod board;
+pub mod clocks;
 mod dead_man;
+mod memory;
 mod reset;
 mod safe_state;
 mod sensors;

@@ -2,7 +2,7 @@
 //! stop button. Everything is read anew for each tick: the core counts bad samples in a row, and a sample that it
 //! saw before would count twice.
 
-use crate::{board::HEATERS, stop};
+use crate::{board::HEATERS, servo_gate, stop};
 use embassy_stm32::{
     adc::{Adc, AnyAdcChannel, SampleTime},
     gpio::{Input, Level, Output},
@@ -62,14 +62,15 @@ impl Sensors {
             supply: Millivolts(pin_millivolts(supply) * SUPPLY_DIVIDER),
             current: Milliamps(pin_millivolts(current) * MILLIAMPS_PER_MILLIVOLT),
             // Both, in any order: an edge is told once, and a button that was pressed before the start has none.
+            servos_lost: servo_gate::is_lost(),
             stop_pressed: stop::was_pressed() | (self.stop.get_level() == self.stop_pressed),
         }
     }
 
-    /// Sixteen bits of the noise in the lowest bits of the supply's reading.
-    pub(crate) fn noise(&mut self) -> u16 {
-        (0..16).fold(0, |noise: u16, _| {
-            noise.rotate_left(1) ^ self.adc.blocking_read(&mut self.supply, SampleTime::CYCLES3)
+    /// The noise in the lowest bits of the supply's reading, many times over.
+    pub(crate) fn noise(&mut self) -> u32 {
+        (0..64).fold(0, |noise: u32, _| {
+            noise.rotate_left(5) ^ u32::from(self.adc.blocking_read(&mut self.supply, SampleTime::CYCLES3))
         })
     }
 }

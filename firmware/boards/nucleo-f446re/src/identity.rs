@@ -4,6 +4,12 @@ use crate::pins::CHANNELS;
 use zygote_core::{Config, NTC_10K};
 use zygote_protocol::{CentiCelsius, Identity, Limits, Milliamps, Millis, ResetCause};
 
+/// What `zygote flash` and the emulator read of the program's file; it isn't in flash.
+#[used]
+#[expect(unsafe_code, reason = "the linker script keeps the section out of the chip's memory")]
+#[unsafe(link_section = ".zygote")]
+static CARD: [u8; 39] = *b"board=nucleo-f446re\nchip=STM32F446RETx\n";
+
 /// Ceilings of this board (S13).
 const CEILING: Limits = Limits {
     // The hottest common nitinol has turned at 98 °C; paper browns above 150 °C.

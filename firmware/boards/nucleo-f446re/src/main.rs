@@ -3,7 +3,6 @@
 #![no_std]
 #![no_main]
 
-mod clocks;
 mod identity;
 mod pins;
 
@@ -18,7 +17,7 @@ use embassy_stm32::{
     usart::{self, BufferedUart},
 };
 use static_cell::ConstStaticCell;
-use zygote_stm32f4::{Actuators, Board, Edge, Sensors, ServoBus, four_heaters, low};
+use zygote_stm32f4::{Actuators, Board, Edge, Sensors, ServoBus, clocks, four_heaters, low};
 
 /// Rate of the line to the ST-LINK's virtual COM port.
 const BAUD: u32 = 921_600;
@@ -32,7 +31,7 @@ bind_interrupts!(struct Interrupts {
 #[cortex_m_rt::entry]
 fn main() -> ! {
     zygote_stm32f4::first(&pins::ACTUATORS);
-    zygote_stm32f4::run(board(embassy_stm32::init(clocks::config())))
+    zygote_stm32f4::run(board(embassy_stm32::init(clocks::internal())))
 }
 
 /// Gives every pin to its driver.
@@ -79,6 +78,7 @@ fn board(p: Peripherals) -> Board {
             clock: (pac::GPIOB, 10),
         },
         servos_enable: Output::new(p.PC11, Level::High, Speed::Low),
+        flash: p.FLASH,
     }
 }
 
