@@ -290,7 +290,14 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             return Err(Trip::new(FaultCode::LinkLost, silence, limits.link_timeout.0).at(now, None, None));
         }
         self.check_heaters(now, &limits)?;
-        self.supply_guard.check(self.current, limits.supply).map_err(|trip| trip.at(now, None, None))
+        self.check_supply(now, &limits).map_err(|trip| trip.at(now, None, None))
+    }
+
+    fn check_supply(&mut self, now: Micros, limits: &Limits) -> Result<(), Trip> {
+        self.supply_guard.check(self.current, limits.supply)?;
+        let planned = self.sequencer.planned(self.program.steps());
+        let planned = if self.sequencer.drives_servo() { None } else { Some(planned) };
+        self.supply_guard.check_planned(now, self.current, planned)
     }
 
     fn check_heaters(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {
