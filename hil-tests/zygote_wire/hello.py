@@ -7,7 +7,7 @@ from typing import Annotated
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
 VERSION = 3
-SCHEMA = 0x1BD4149D
+SCHEMA = 0x895D4743
 
 
 class ResetCause(enum.IntEnum):

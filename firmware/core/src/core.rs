@@ -324,7 +324,14 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         }
         self.check_heaters(now, &limits)?;
         self.check_servos().map_err(|trip| trip.at(now, None, None))?;
-        self.supply_guard.check(self.current, limits.supply).map_err(|trip| trip.at(now, None, None))
+        self.check_supply(now, &limits).map_err(|trip| trip.at(now, None, None))
+    }
+
+    fn check_supply(&mut self, now: Micros, limits: &Limits) -> Result<(), Trip> {
+        self.supply_guard.check(self.current, limits.supply)?;
+        let planned = self.sequencer.planned(self.program.steps());
+        let planned = if self.sequencer.drives_servo() { None } else { Some(planned) };
+        self.supply_guard.check_planned(now, self.current, planned)
     }
 
     /// Servos that hold a structure let go of it when their pulses fail; nothing else may move then. A program
