@@ -41,6 +41,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-parts", &["zygote-core", "zygote-protocol"]),
     ("zygote-stm32f4", &["zygote-core", "zygote-parts", "zygote-protocol"]),
     ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol", "zygote-stm32f4"]),
+    ("zygote-stm32f4-discovery", &["zygote-core", "zygote-protocol", "zygote-stm32f4"]),
     ("xtask", &[]),
 ];
 
