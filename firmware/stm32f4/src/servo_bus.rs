@@ -88,7 +88,7 @@ pub(crate) async fn serve(bus: ServoBus) {
         let wanted = servo_gate::wanted();
         let result = if is_up {
             let checked = if due(CHECK_EVERY) { chip.check() } else { Ok(()) };
-            Some(checked.and_then(|()| chip.send(&wanted)))
+            Some(checked.and_then(|()| chip.send(&wanted.pulses)))
         } else if due(RETRY_EVERY) {
             chip.bus().free();
             Some(chip.start())
@@ -101,7 +101,7 @@ pub(crate) async fn serve(bus: ServoBus) {
             Some(Ok(())) => {
                 defmt::info!("servo driver found");
                 is_up = true;
-                servo_gate::told(&servo_gate::NO_PULSES);
+                servo_gate::found();
             }
             Some(Err(lost)) => {
                 servo_gate::lose();

@@ -1,66 +1,62 @@
-//! Between core and servo bus: the pulses that are wanted, and the pin that lets pulses out at all.
+//! The pin that lets servo pulses out, and what is wanted of it: written by the core's side, read by the bus's.
 //!
-//! The core's side shuts the gate at once, whatever the bus does (S3, S8). The bus opens it, and only when the chip
-//! has been told exactly what is wanted now: stale pulses never come out.
+//! The core's side shuts it at once, whatever the bus does (S3, S8); `zygote_parts::ServoGate` says when it may open.
 
-use crate::board::SERVOS;
 use core::{cell::RefCell, sync::atomic::AtomicBool, sync::atomic::Ordering};
 use critical_section::Mutex;
 use embassy_stm32::gpio::Output;
-use zygote_core::PulseMicros;
+use zygote_parts::{Pulses, ServoGate, Wanted};
 
-/// A pulse for each servo, or none.
-pub(crate) type Pulses = [Option<PulseMicros>; SERVOS];
-
-/// No pulse at all.
-pub(crate) const NO_PULSES: Pulses = [None; SERVOS];
-
-struct Gate {
+struct Pin {
+    gate: ServoGate,
     /// Low lets pulses out.
     enable: Option<Output<'static>>,
-    wanted: Pulses,
 }
 
-static GATE: Mutex<RefCell<Gate>> = Mutex::new(RefCell::new(Gate { enable: None, wanted: NO_PULSES }));
+static PIN: Mutex<RefCell<Pin>> = Mutex::new(RefCell::new(Pin { gate: ServoGate::new(), enable: None }));
 /// Until the chip has answered for the first time it counts as lost.
 static LOST: AtomicBool = AtomicBool::new(true);
 
 /// Gives the gate its pin, which is high.
 pub(crate) fn install(enable: Output<'static>) {
-    with(|gate| gate.enable = Some(enable));
+    with(|pin| pin.enable = Some(enable));
 }
 
 /// What the core wants from now on; shuts the gate if that is nothing.
 pub(crate) fn want(pulses: &Pulses) {
-    with(|gate| {
-        gate.wanted = *pulses;
-        if *pulses == NO_PULSES {
-            gate.shut();
+    with(|pin| {
+        if pin.gate.want(pulses) {
+            pin.shut();
         }
     });
 }
 
 /// What the core wants.
-pub(crate) fn wanted() -> Pulses {
-    with(|gate| gate.wanted)
+pub(crate) fn wanted() -> Wanted {
+    with(|pin| pin.gate.wanted())
 }
 
-/// The chip has been told these pulses: opens the gate, if they are still what is wanted.
-pub(crate) fn told(pulses: &Pulses) {
+/// The chip is there and was told this: opens the gate, if that is still good.
+pub(crate) fn told(told: &Wanted) {
     LOST.store(false, Ordering::Relaxed);
-    with(|gate| {
-        if gate.wanted == *pulses && *pulses != NO_PULSES {
-            if let Some(enable) = &mut gate.enable {
-                enable.set_low();
-            }
+    with(|pin| {
+        if pin.gate.may_open(told)
+            && let Some(enable) = &mut pin.enable
+        {
+            enable.set_low();
         }
     });
+}
+
+/// The chip is there, and has no pulses yet.
+pub(crate) fn found() {
+    LOST.store(false, Ordering::Relaxed);
 }
 
 /// The chip can't be relied on: shuts the gate and lets the core know.
 pub(crate) fn lose() {
     LOST.store(true, Ordering::Relaxed);
-    with(Gate::shut);
+    with(Pin::shut);
 }
 
 /// The chip can't be relied on.
@@ -68,7 +64,7 @@ pub(crate) fn is_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }
 
-impl Gate {
+impl Pin {
     fn shut(&mut self) {
         if let Some(enable) = &mut self.enable {
             enable.set_high();
@@ -76,6 +72,6 @@ impl Gate {
     }
 }
 
-fn with<R>(verb: impl FnOnce(&mut Gate) -> R) -> R {
-    critical_section::with(|token| verb(&mut GATE.borrow_ref_mut(token)))
+fn with<R>(verb: impl FnOnce(&mut Pin) -> R) -> R {
+    critical_section::with(|token| verb(&mut PIN.borrow_ref_mut(token)))
 }
