@@ -185,6 +185,21 @@ fn only_frames_of_its_session_tell_a_link_that_the_other_end_lives() {
 }
 
 #[test]
+fn a_hello_and_its_answer_are_heard_whatever_session_is_open_and_change_none() {
+    for asked in [OURS, OTHER] {
+        let mut link = open_link();
+        link.send(&1_u8).unwrap();
+        say_all(&mut link, 0);
+        let hello = hear(&mut link, 9, &frame(FrameKind::Hello, asked, 0, 1));
+        assert_eq!(hello, Some(Received::Hello(asked, &[42])));
+        let reply = hear(&mut link, 9, &frame(FrameKind::HelloReply, asked, 0, 1));
+        assert_eq!(reply, Some(Received::HelloReply(asked, &[42])));
+        assert_eq!((link.session(), link.last_heard(), link.is_settled()), (Some(OURS), Micros(0), false));
+        assert_eq!((say(&mut link, 9), link.counters().discarded), (None, 0));
+    }
+}
+
+#[test]
 fn a_stop_of_another_session_or_of_none_is_heard_and_acknowledged_to_its_sender() {
     for (session, discarded) in [(OTHER, 1), (NO_SESSION, 0)] {
         let mut link = open_link();
