@@ -54,7 +54,9 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
         let outcomes = serde_json::from_str(&text).with_context(|| path.display().to_string())?;
         let scores = scores(&outcomes).with_context(|| path.display().to_string())?;
         print(&scores);
-        scores.into_values().for_each(|score| total += score);
+        for score in scores.into_values() {
+            total += score;
+        }
     }
     ensure!(
         is_good(total),

@@ -127,3 +127,16 @@ fn telemetry_comes_ten_times_a_second_with_what_is_under_way() {
     let Phase::Heating { temperature, duty: 1_000 } = motion.phase else { panic!("{motion:?}") };
     assert!((2_300..9_500).contains(&temperature.0), "{temperature}");
 }
+
+#[test]
+fn s3_the_dead_mans_switch_acts_30_ms_after_the_latest_tick_and_only_while_something_may_be_energised() {
+    let mut host = Host::new(&plant());
+    host.upload(&[heat(0, &[])]).unwrap();
+    host.pass(Millis(20));
+    assert_eq!(host.board.core().dead_line(), None);
+    host.arm(LIMITS).unwrap();
+    host.pass(Millis(20));
+    assert_eq!(host.board.core().dead_line(), Some(host.board.now().plus(Millis(30))));
+    host.ask(Command::Disarm).unwrap();
+    assert_eq!(host.board.core().dead_line(), None);
+}
