@@ -299,3 +299,6 @@ fn drive<const H: usize, const S: usize, const R: usize>(motion: &Motion, output
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
