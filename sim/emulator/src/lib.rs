@@ -1,11 +1,3 @@
-//! Programs for a Cortex-M4F, run instruction by instruction. A [`Bare`] processor calls one function at a time and counts what it
-//! takes; [`Calls`] follows every call in its instructions.
+//! Programs for a Cortex-M4F, run instruction by instruction.
 
-mod bare;
-mod calls;
-mod cycles;
-mod linked;
-
-pub use bare::{Bare, BareError, Taken};
-pub use calls::{Calls, CallsError, Deepest};
-pub use linked::{Linked, LinkedError};
+pub mod count;

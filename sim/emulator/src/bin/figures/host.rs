@@ -5,8 +5,8 @@ use crate::pair::{Pair, PairError};
 use crate::target::Applied;
 use zygote_core::Inputs;
 use zygote_protocol::{
-    Command, Decoder, FrameKind, Header, Hello, MAX_ENCODED, MAX_PAYLOAD, Micros, Milliamps, Millivolts, Request,
-    encode,
+    Command, Decoder, FrameKind, Header, Hello, MAX_ENCODED, MAX_PAYLOAD, Micros, Milliamps, Millivolts,
+    Request, encode,
 };
 
 /// Bytes that a board hands over at once.
@@ -23,11 +23,19 @@ pub(crate) enum Event {
     /// The payload of a request in sequence, whatever it is.
     Payload(Vec<u8>),
     /// A good frame out of sequence.
-    Frame { kind: FrameKind, session: u32, seq: u8, payload: Vec<u8> },
+    Frame {
+        kind: FrameKind,
+        session: u32,
+        seq: u8,
+        payload: Vec<u8>,
+    },
     /// Any bytes, in one go.
     Raw(&'static str, Vec<u8>),
     /// So many control ticks, so many milliseconds apart; heaters heat and what isn't heated cools.
-    Pass { ticks: u16, every_ms: u16 },
+    Pass {
+        ticks: u16,
+        every_ms: u16,
+    },
     /// From now on the thermistors read this; `None`, what the rig has.
     Readings(Option<[u16; CHANNELS]>),
     Current(u32),
@@ -82,7 +90,8 @@ impl<'a> Host<'a> {
                 }
                 let mut payload = [0; MAX_PAYLOAD];
                 let payload = postcard::to_slice(&Hello::ours(), &mut payload).map_or(&[][..], |bytes| bytes);
-                let bytes = framed(Header { kind: FrameKind::Hello, session: *session, seq: 0, ack: 0 }, payload);
+                let bytes =
+                    framed(Header { kind: FrameKind::Hello, session: *session, seq: 0, ack: 0 }, payload);
                 self.say("hello", &bytes)
             }
             Event::Requests(commands) => {

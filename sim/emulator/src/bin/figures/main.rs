@@ -19,7 +19,7 @@ use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-use zygote_emulator::Linked;
+use zygote_emulator::count::Linked;
 
 /// Random sequences, unless asked for more.
 const SEQUENCES: usize = 30;
@@ -53,7 +53,8 @@ fn run(elf: &Path, corpus: &Path, sequences: usize, seed: u64) -> Result<(), Box
         name.clone_into(&mut pair.sequence);
         Host::new(&mut pair)?.play(&events).map_err(|error| format!("{name}: {error}"))?;
     }
-    let files = search::corpus(&mut pair, corpus).map_err(|error| format!("{}: {error}", corpus.display()))??;
+    let files =
+        search::corpus(&mut pair, corpus).map_err(|error| format!("{}: {error}", corpus.display()))??;
     search::run(&mut pair, sequences, seed).map_err(|error| format!("{}: {error}", pair.sequence))?;
 
     let core = linked.static_named("FIGURES_CORE")?;
@@ -67,6 +68,6 @@ fn run(elf: &Path, corpus: &Path, sequences: usize, seed: u64) -> Result<(), Box
         pair.instructions / 1_000_000,
         begun.elapsed().as_secs_f64()
     );
-    table::hold_times(&pair)?;
+    println!("{}", table::hold_times(&pair)?);
     table::hold_memory(&linked)
 }

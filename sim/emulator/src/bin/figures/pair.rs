@@ -5,7 +5,7 @@ use crate::config::config;
 use crate::target::{Applied, Entry, Target, TargetError, Words};
 use std::collections::BTreeMap;
 use zygote_core::{Core, Inputs};
-use zygote_emulator::{Linked, Taken};
+use zygote_emulator::count::{Linked, Taken};
 use zygote_protocol::{MAX_ENCODED, Micros, RETAINED_WORDS, Retained};
 
 type NativeCore = Core<CHANNELS, CHANNELS, CHANNELS, { 3 * CHANNELS }>;
@@ -19,7 +19,17 @@ pub(crate) enum PairError {
     Differs { what: &'static str, now: Micros, target: String, native: String },
 }
 
-/// The most that was seen of an entry, and what it was about.
+/// What a call is counted under.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Kind {
+    pub(crate) entry: Entry,
+    /// What it was called with.
+    pub(crate) what: &'static str,
+    /// Something might be energised: Armed or Running.
+    pub(crate) energised: bool,
+}
+
+/// The most that was seen of a kind of call, and what it was about.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Most {
     /// Each the most for itself.
@@ -34,8 +44,8 @@ pub(crate) struct Pair {
     target: Target,
     kept: Words,
     changes: u32,
-    /// By entry and by what it was called with.
-    pub(crate) most: BTreeMap<(Entry, &'static str), Most>,
+    energised: bool,
+    pub(crate) most: BTreeMap<Kind, Most>,
     /// The sequence that is played.
     pub(crate) sequence: String,
     pub(crate) calls: u64,
@@ -49,6 +59,7 @@ impl Pair {
             target: Target::new(linked)?,
             kept: [0; RETAINED_WORDS],
             changes: 0,
+            energised: false,
             most: BTreeMap::new(),
             sequence: String::new(),
             calls: 0,
@@ -69,7 +80,7 @@ impl Pair {
         self.native = Core::new(config(boot), now, Retained::from_words(&self.kept).recall());
         let taken = self.target.reset(now, boot, &self.kept)?;
         self.note(Entry::New, "", taken);
-        self.changes = 0;
+        (self.changes, self.energised) = (0, false);
         self.apply(now)?;
         Ok(())
     }
@@ -126,13 +137,14 @@ impl Pair {
             same("what is kept", now, &words, &Retained::new(&self.native.snapshot(now)).to_words())?;
             self.kept = words;
         }
+        self.energised = applied.dead_line != u64::MAX;
         Ok(applied)
     }
 
     fn note(&mut self, entry: Entry, what: &'static str, taken: Taken) {
         self.calls += 1;
         self.instructions += taken.instructions;
-        let most = self.most.entry((entry, what)).or_default();
+        let most = self.most.entry(Kind { entry, what, energised: self.energised }).or_default();
         if taken.cycles_from_flash > most.taken.cycles_from_flash {
             most.during.clone_from(&self.sequence);
         }

@@ -152,7 +152,12 @@ fn any(chance: &mut Chance) -> Event {
         9 => {
             let payload = (0..chance.below(64)).map(|_| chance.bits().to_le_bytes()[0]).collect();
             let kind = chance.one_of(&KINDS).unwrap_or(FrameKind::Ack);
-            Event::Frame { kind, session: u32::from(small(chance, 3)), seq: chance.bits().to_le_bytes()[0], payload }
+            Event::Frame {
+                kind,
+                session: u32::from(small(chance, 3)),
+                seq: chance.bits().to_le_bytes()[0],
+                payload,
+            }
         }
         10 => Event::Raw("any bytes", (0..BUFFER).map(|_| chance.bits().to_le_bytes()[0] & 3).collect()),
         _ => match chance.below(3) {

@@ -3,7 +3,7 @@
 use crate::call::{BYTES, CHANNELS, Call};
 use std::mem::offset_of;
 use zygote_core::Inputs;
-use zygote_emulator::{Bare, BareError, Linked, LinkedError, Taken};
+use zygote_emulator::count::{Bare, BareError, Linked, LinkedError, Taken};
 use zygote_protocol::{Micros, RETAINED_WORDS};
 
 /// What a board calls.

@@ -120,7 +120,10 @@ pub(crate) fn sequences() -> Vec<(&'static str, Vec<Event>)> {
     vec![
         ("48 motions at once, to their end", whole_run(ALL_AT_ONCE)),
         ("32 motions at once, each after four", whole_run(Shape { first: CHANNELS, lead: 1, ..ALL_AT_ONCE })),
-        ("47 steps wait for current", waiting(Shape { first: STEPS, current: 50_000, hold_current: 50_000, lead: 1 })),
+        (
+            "47 steps wait for current",
+            waiting(Shape { first: STEPS, current: 50_000, hold_current: 50_000, lead: 1 }),
+        ),
         ("16 servos hold, 32 steps wait for current and for four each", {
             waiting(Shape { first: CHANNELS, current: 3_000, hold_current: 3_100, lead: 1 })
         }),
@@ -130,7 +133,10 @@ pub(crate) fn sequences() -> Vec<(&'static str, Vec<Event>)> {
         ("all sensors fail at once", sensors_fail()),
         ("a host that doesn't listen, and then asks for everything again", deaf_host()),
         ("a stop in mid-run, and a reset", stopped()),
-        ("another session in mid-run", [start(ALL_AT_ONCE), vec![pass(3, 2), Event::Hello(2), pass(2, 2)]].concat()),
+        (
+            "another session in mid-run",
+            [start(ALL_AT_ONCE), vec![pass(3, 2), Event::Hello(2), pass(2, 2)]].concat(),
+        ),
         ("Commit, and whatever fits behind it", crowded()),
         ("no frames at all", noise()),
     ]

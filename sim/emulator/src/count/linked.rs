@@ -28,7 +28,9 @@ pub enum LinkedError {
         name: String,
     },
     /// A section in neither.
-    #[error("section {name} lies at {address:#010x}, expected flash from {FLASH:#010x} or RAM from {RAM:#010x}")]
+    #[error(
+        "section {name} lies at {address:#010x}, expected flash from {FLASH:#010x} or RAM from {RAM:#010x}"
+    )]
     Elsewhere {
         /// The section.
         name: String,
@@ -87,7 +89,8 @@ impl Linked {
             if section.sh_flags(endian) & SHF_ALLOC == 0 || size == 0 {
                 continue;
             }
-            let name = || String::from_utf8_lossy(sections.section_name(endian, section).unwrap_or_default()).into();
+            let name =
+                || String::from_utf8_lossy(sections.section_name(endian, section).unwrap_or_default()).into();
             match (address, section.sh_type(endian)) {
                 (RAM.., SHT_NOBITS) => statics_end = statics_end.max(address + size),
                 (RAM.., _) => return Err(LinkedError::InitialValues { name: name() }),
@@ -193,5 +196,27 @@ fn place(flash: &mut Vec<u8>, address: u32, data: &[u8]) {
     }
     if let Some(place) = flash.get_mut(start..start + data.len()) {
         place.copy_from_slice(data);
+    }
+}
+
+#[cfg(test)]
+impl Linked {
+    /// Functions one behind the other from the start of flash, each aligned to 4 bytes.
+    pub(super) fn of_code(functions: &[(&str, &[u16])]) -> Self {
+        let mut linked = Self {
+            flash: Vec::new(),
+            functions: BTreeMap::new(),
+            statics: Vec::new(),
+            kinds: BTreeMap::from([(FLASH, true)]),
+            statics_end: RAM,
+        };
+        for (name, code) in functions {
+            let start = FLASH + u32::try_from(linked.flash.len()).unwrap();
+            let size = 2 * u32::try_from(code.len()).unwrap();
+            linked.flash.extend(code.iter().flat_map(|half| half.to_le_bytes()));
+            linked.flash.resize(linked.flash.len().next_multiple_of(4), 0);
+            linked.functions.insert(start, Place { name: (*name).to_owned(), start, size });
+        }
+        linked
     }
 }

@@ -1,7 +1,7 @@
 //! Who calls whom in a program, read off its instructions: whether anything calls itself again, whether a call goes where the
 //! instructions don't say, and how deep the stack can get.
 
-use crate::linked::{Line, Linked, LinkedError, Place};
+use super::linked::{Line, Linked, LinkedError, Place};
 use rsemu::cpu::arm::v7m::fpisa::FpInsn;
 use rsemu::cpu::arm::v7m::isa::{DpOp, Insn, MemOffset, Operand};
 use std::collections::{BTreeMap, BTreeSet};
@@ -200,8 +200,12 @@ fn is_compare(op: DpOp) -> bool {
 /// Bytes that an instruction takes off the stack pointer, 0 for those that give some back; `None` where it doesn't say.
 fn pushed(insn: Insn) -> Option<u32> {
     match insn {
-        Insn::LoadStoreMultiple { rn: SP, wback: true, before: true, list, .. } => Some(4 * list.count_ones()),
-        Insn::Fp(FpInsn::Multi { rn: SP, writeback: true, add: false, count, .. }) => Some(4 * u32::from(count)),
+        Insn::LoadStoreMultiple { rn: SP, wback: true, before: true, list, .. } => {
+            Some(4 * list.count_ones())
+        }
+        Insn::Fp(FpInsn::Multi { rn: SP, writeback: true, add: false, count, .. }) => {
+            Some(4 * u32::from(count))
+        }
         Insn::LoadStore { rn: SP, wback: true, add: false, offset, .. } => match offset {
             MemOffset::Imm(bytes) => Some(bytes),
             MemOffset::Reg { .. } => None,
@@ -214,5 +218,61 @@ fn pushed(insn: Insn) -> Option<u32> {
             _ => None,
         },
         _ => Some(0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::count::Bare;
+    use crate::count::linked::FLASH;
+
+    const PUSH_R4_LR: u16 = 0xb510;
+    const POP_R4_PC: u16 = 0xbd10;
+
+    /// `bl`, so many bytes on from its own address.
+    fn bl(by: i32) -> [u16; 2] {
+        let bits = (by - 4).cast_unsigned();
+        let part = |shift: u32, mask: u32| u16::try_from(bits >> shift & mask).unwrap();
+        [0xf000 | part(31, 1) << 10 | part(12, 0x3ff), 0xf800 | part(1, 0x7ff)]
+    }
+
+    /// `outer` takes 24 bytes and calls what lies 12 bytes on from its start, or before it.
+    fn outer(by: i32) -> [u16; 6] {
+        let [first, second] = bl(by);
+        // sub sp, #16; bl; add sp, #16
+        [PUSH_R4_LR, 0xb084, first, second, 0xb004, POP_R4_PC]
+    }
+
+    #[test]
+    fn the_deepest_stack_is_the_one_that_is_seen() {
+        let linked = Linked::of_code(&[("outer", &outer(8)), ("inner", &[PUSH_R4_LR, POP_R4_PC])]);
+        let deepest = Calls::from(&linked, &["outer"]).unwrap().deepest(&linked, "outer").unwrap();
+        assert_eq!(deepest, Deepest { bytes: 32, path: vec![("outer".into(), 24), ("inner".into(), 8)] });
+        assert_eq!(Bare::new(linked).unwrap().call(FLASH, [0, 0]).unwrap().stack, 32);
+    }
+
+    #[test]
+    fn recursion_is_found_with_who_calls_whom() {
+        let linked = Linked::of_code(&[("outer", &outer(8)), ("inner", &outer(-16))]);
+        let error = Calls::from(&linked, &["outer"]).unwrap().deepest(&linked, "outer").unwrap_err();
+        assert_eq!(error.to_string(), "recursion: outer calls inner calls outer");
+    }
+
+    #[test]
+    fn a_call_by_a_register_is_found() {
+        // blx r3
+        let linked = Linked::of_code(&[("it", &[PUSH_R4_LR, 0x4798, POP_R4_PC])]);
+        let error = Calls::from(&linked, &["it"]).unwrap_err();
+        assert!(matches!(error, CallsError::Indirect { at, .. } if at == FLASH + 2), "{error}");
+    }
+
+    #[test]
+    fn a_frame_of_unknown_size_and_a_call_to_nowhere_are_found() {
+        // mov sp, r3
+        let linked = Linked::of_code(&[("it", &[0x469d, 0x4770])]);
+        assert!(matches!(Calls::from(&linked, &["it"]), Err(CallsError::UnknownFrame { .. })));
+        let linked = Linked::of_code(&[("it", &outer(400))]);
+        assert!(matches!(Calls::from(&linked, &["it"]), Err(CallsError::Nowhere { .. })));
     }
 }

@@ -33,7 +33,8 @@ pub(crate) fn access(insn: Insn, registers: &[u32; 16]) -> Option<Access> {
     let register = |number: u8| registers.get(usize::from(number)).copied().unwrap_or(0);
     // As a base, the PC reads four bytes on, and in line.
     let base = |number: u8| if number == 15 { register(15).wrapping_add(4) & !3 } else { register(number) };
-    let moved = |from: u32, by: u32, add: bool| if add { from.wrapping_add(by) } else { from.wrapping_sub(by) };
+    let moved =
+        |from: u32, by: u32, add: bool| if add { from.wrapping_add(by) } else { from.wrapping_sub(by) };
     match insn {
         Insn::LoadStore { load, size, rn, offset, index, add, .. } => {
             let by = match offset {
@@ -52,14 +53,24 @@ pub(crate) fn access(insn: Insn, registers: &[u32; 16]) -> Option<Access> {
         }
         Insn::LoadStoreMultiple { load, rn, list, before, .. } => {
             let count = list.count_ones();
-            Some(Access { at: moved(base(rn), if before { 4 * count } else { 0 }, false), width: 4, count, load })
+            Some(Access {
+                at: moved(base(rn), if before { 4 * count } else { 0 }, false),
+                width: 4,
+                count,
+                load,
+            })
         }
         Insn::Fp(FpInsn::Mem { load, rn, imm, add, double, .. }) => {
             Some(Access { at: moved(base(rn), imm, add), width: 4, count: if double { 2 } else { 1 }, load })
         }
         Insn::Fp(FpInsn::Multi { load, rn, count, add, .. }) => {
             let count = u32::from(count);
-            Some(Access { at: moved(base(rn), if add { 0 } else { 4 * count }, false), width: 4, count, load })
+            Some(Access {
+                at: moved(base(rn), if add { 0 } else { 4 * count }, false),
+                width: 4,
+                count,
+                load,
+            })
         }
         _ => None,
     }

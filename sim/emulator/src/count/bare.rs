@@ -1,11 +1,11 @@
 //! A Cortex-M4F with flash, RAM and nothing else, which calls one function of a program at a time and counts what that takes.
 //!
-//! Three counts: instructions; cycles at the most, as [`crate::cycles`] has them; and cycles from a flash that answers five wait
+//! Three counts: instructions; cycles at the most, as [`super::cycles`] has them; and cycles from a flash that answers five wait
 //! states late whenever instructions come from another line of 16 bytes, or a constant is read, as that of an STM32F446 above 150 MHz
 //! does where its accelerator has nothing (RM0390, 3.4).
 
-use crate::cycles::{Access, access, at_most};
-use crate::linked::{FLASH, Line, Linked, RAM};
+use super::cycles::{Access, access, at_most};
+use super::linked::{FLASH, Line, Linked, RAM};
 use rsemu::core::error::Error as SpaceError;
 use rsemu::core::space::{AddressSpace, RamStore, Region, RomStore, RomWrite};
 use rsemu::cpu::arm::v7m::isa::Insn;
@@ -116,10 +116,10 @@ impl Bare {
         let space = AddressSpace::new("bare", 32);
         {
             let mut topology = space.topology();
-            topology.map(Region::rom("flash", rom, RomWrite::Ignore), u64::from(FLASH)).map_err(BareError::Memory)?;
             topology
-                .map(Region::ram("ram", Arc::clone(&ram)), u64::from(RAM))
+                .map(Region::rom("flash", rom, RomWrite::Ignore), u64::from(FLASH))
                 .map_err(BareError::Memory)?;
+            topology.map(Region::ram("ram", Arc::clone(&ram)), u64::from(RAM)).map_err(BareError::Memory)?;
         }
         let cpu = ArmV7m::new(Config::CORTEX_M4F);
         cpu.attach_space(Arc::new(space));
@@ -223,4 +223,60 @@ fn new_lines(current: &mut Option<u32>, line: Line) -> u64 {
 fn constants(access: Option<Access>) -> u64 {
     let from_flash = access.filter(|access| access.load && (FLASH..RAM).contains(&access.at));
     from_flash.map_or(0, |access| u64::from(access.count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BX_LR: u16 = 0x4770;
+
+    fn call(code: &[u16]) -> Result<Taken, BareError> {
+        let mut bare = Bare::new(Linked::of_code(&[("it", code)])).unwrap();
+        bare.call(FLASH, [RAM, 7])
+    }
+
+    #[test]
+    fn an_addition_and_a_return_take_five_cycles_and_one_line_of_flash() {
+        let taken = call(&[0x1840, BX_LR]).unwrap();
+        assert_eq!(
+            taken,
+            Taken { instructions: 2, cycles: 1 + 4, cycles_from_flash: 5 + WAIT_STATES, stack: 0 }
+        );
+    }
+
+    #[test]
+    fn a_frame_is_seen_and_what_is_pushed_costs_a_cycle_each() {
+        // push {r4, lr}; sub sp, #16; add sp, #16; pop {r4, pc}
+        let taken = call(&[0xb510, 0xb084, 0xb004, 0xbd10]).unwrap();
+        assert_eq!((taken.stack, taken.cycles), (24, 3 + 1 + 1 + 6));
+    }
+
+    #[test]
+    fn a_constant_is_read_late_and_a_static_is_not() {
+        // ldr r2, [pc, #0]; bx lr; the constant
+        let from_flash = call(&[0x4a00, BX_LR, 1, 0]).unwrap();
+        // ldr r2, [r0, #0]; bx lr
+        let from_ram = call(&[0x6802, BX_LR]).unwrap();
+        assert_eq!(from_flash.cycles, from_ram.cycles);
+        assert_eq!(from_flash.cycles_from_flash, from_ram.cycles_from_flash + WAIT_STATES);
+    }
+
+    #[test]
+    fn what_a_function_writes_is_read_back() {
+        // str r1, [r0, #0]; bx lr
+        let mut bare = Bare::new(Linked::of_code(&[("it", &[0x6001, BX_LR])])).unwrap();
+        bare.call(FLASH, [RAM + 8, 0x0102_0304]).unwrap();
+        let mut bytes = [0; 4];
+        bare.read(RAM + 8, &mut bytes).unwrap();
+        assert_eq!(bytes, [4, 3, 2, 1]);
+    }
+
+    #[test]
+    fn a_fault_and_a_loop_without_end_are_told() {
+        // ldr r2, [r1, #0] from address 7, where nothing is
+        assert!(matches!(call(&[0x680a, BX_LR]), Err(BareError::Fault { pc: FLASH, .. })));
+        // b .
+        assert!(matches!(call(&[0xe7fe]), Err(BareError::Endless { .. })));
+    }
 }
