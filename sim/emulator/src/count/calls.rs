@@ -4,6 +4,7 @@
 use super::linked::{Line, Linked, LinkedError, Place};
 use rsemu::cpu::arm::v7m::fpisa::FpInsn;
 use rsemu::cpu::arm::v7m::isa::{DpOp, Insn, MemOffset, Operand};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 const SP: u8 = 13;
@@ -83,10 +84,9 @@ impl Calls {
         let mut bodies = BTreeMap::new();
         while let Some(start) = open.pop() {
             let Some(function) = linked.function_at(start) else { continue };
-            if !bodies.contains_key(&function.start) {
-                let body = body(linked, function)?;
+            if let Entry::Vacant(place) = bodies.entry(function.start) {
+                let body = place.insert(body(linked, function)?);
                 open.extend(&body.callees);
-                bodies.insert(function.start, body);
             }
         }
         Ok(Self { bodies })

@@ -99,9 +99,8 @@ pub(crate) fn at_most(insn: Insn, access: Option<Access>, branches: bool) -> Opt
             _ => 4,
         },
         Insn::Fp(FpInsn::Unary { op: UnaryOp::Sqrt, .. }) => 15,
-        Insn::Fp(_) => 2,
+        Insn::Fp(_) | Insn::Mul { ra: Some(_), .. } | Insn::MulLong { accumulate: true, .. } => 2,
         Insn::Div { .. } => 12,
-        Insn::Mul { ra: Some(_), .. } | Insn::MulLong { accumulate: true, .. } => 2,
         Insn::TableBranch { .. } => 2 + refill,
         Insn::LoadStoreExclusive { .. }
         | Insn::ClearExclusive

@@ -22,7 +22,7 @@ use std::time::Instant;
 use zygote_emulator::count::Linked;
 
 /// Random sequences, unless asked for more.
-const SEQUENCES: usize = 30;
+const SEQUENCES: usize = 10;
 const SEED: u64 = 1;
 
 fn main() -> ExitCode {

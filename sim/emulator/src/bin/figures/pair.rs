@@ -4,7 +4,7 @@ use crate::call::CHANNELS;
 use crate::config::config;
 use crate::target::{Applied, Entry, Target, TargetError, Words};
 use std::collections::BTreeMap;
-use zygote_core::{Core, Inputs};
+use zygote_core::{Core, Duty, Inputs};
 use zygote_emulator::count::{Linked, Taken};
 use zygote_protocol::{MAX_ENCODED, Micros, RETAINED_WORDS, Retained};
 
@@ -121,7 +121,7 @@ impl Pair {
         self.note(Entry::Apply, "", taken);
         let outputs = self.native.outputs();
         let native = Applied {
-            heaters: outputs.heaters.map(|duty| duty.per_mille()),
+            heaters: outputs.heaters.map(Duty::per_mille),
             servos: outputs.servos.map(|pulse| pulse.map_or(0, |pulse| pulse.0)),
             springs: outputs.springs.map(u16::from),
             main_switch: outputs.main_switch,

@@ -50,8 +50,8 @@ fn most(pair: &Pair, of: impl Fn(&Kind) -> bool) -> Most {
     let mut all = Most::default();
     for (kind, most) in pair.most.iter().filter(|(kind, _)| of(kind)) {
         if most.taken.cycles_from_flash > all.taken.cycles_from_flash {
-            let to = if kind.what.is_empty() { "" } else { ": " };
-            all.during = format!("{}{to}{}", kind.what, most.during);
+            let what = if kind.what.is_empty() { String::new() } else { format!("{}: ", kind.what) };
+            all.during = what + &most.during;
         }
         all.taken = all.taken.most(most.taken);
     }
@@ -91,17 +91,17 @@ pub(crate) fn times(pair: &Pair) -> String {
     text += &head("\nhandle_bytes, by what comes");
     let whats: BTreeSet<_> = pair.most.keys().map(|kind| kind.what).filter(|what| !what.is_empty()).collect();
     for what in whats {
-        text += &row(what, &most(pair, |kind| kind.what == what));
+        text += &row(&format!("  {what}"), &most(pair, |kind| kind.what == what));
     }
     text
 }
 
 /// The most that can come between two control ticks while something may be energised, at full rate of the line: two buffers, two frames
-/// out, the tick, and after each what a board does then.
+/// out, the tick, and after each what a board does then. Sending changes nothing that is kept.
 fn between_ticks(pair: &Pair) -> u64 {
     let most = |entry| while_energised(pair, entry);
     let calls = 2 * most(Entry::HandleBytes) + 2 * most(Entry::PollTransmit) + most(Entry::Tick);
-    calls + 5 * (most(Entry::Apply) + most(Entry::Keep))
+    calls + 5 * most(Entry::Apply) + 3 * most(Entry::Keep)
 }
 
 pub(crate) fn hold_times(pair: &Pair) -> Result<String, OverBudget> {
@@ -119,16 +119,15 @@ pub(crate) fn hold_times(pair: &Pair) -> Result<String, OverBudget> {
 pub(crate) fn stacks(pair: &Pair, linked: &Linked) -> Result<String, CallsError> {
     let entries = Entry::ALL.map(Entry::symbol);
     let calls = Calls::from(linked, &entries)?;
-    let mut text = format!("{:<34} {:>9} {:>9}\n", "stack", "at most", "seen");
+    let mut lines = vec![format!("{:<34} {:>9} {:>9}", "stack", "at most", "seen")];
     for entry in Entry::ALL {
-        let deepest = calls.deepest(linked, entry.symbol())?;
-        text +=
-            &format!("{:<34} {:>9} {:>9}\n", entry.name(), deepest.bytes, of_entry(pair, entry).taken.stack);
-        for (name, frame) in deepest.path.iter().filter(|(_, frame)| *frame > 0) {
-            text += &format!("    {frame:>6} {:#}\n", demangle(name));
-        }
+        let (deepest, seen) = (calls.deepest(linked, entry.symbol())?, of_entry(pair, entry).taken.stack);
+        lines.push(format!("{:<34} {:>9} {seen:>9}", entry.name(), deepest.bytes));
+        let frames = deepest.path.iter().filter(|(_, frame)| *frame > 0);
+        lines.extend(frames.map(|(name, frame)| format!("    {frame:>6} {:#}", demangle(name))));
     }
-    Ok(text + &format!("{} functions, none calls itself, none calls by a register\n", calls.functions()))
+    lines.push(format!("{} functions, none calls itself, none calls by a register\n", calls.functions()));
+    Ok(lines.join("\n"))
 }
 
 pub(crate) fn hold_memory(linked: &Linked) -> Result<(), Box<dyn std::error::Error>> {
