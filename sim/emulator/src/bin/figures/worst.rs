@@ -138,6 +138,7 @@ pub(crate) fn sequences() -> Vec<(&'static str, Vec<Event>)> {
             [start(ALL_AT_ONCE), vec![pass(3, 2), Event::Hello(2), pass(2, 2)]].concat(),
         ),
         ("Commit, and whatever fits behind it", crowded()),
+        ("armed and disarmed in turn, in one buffer", toggled()),
         ("no frames at all", noise()),
     ]
 }
@@ -206,6 +207,17 @@ fn crowded() -> Vec<Event> {
         events.push(request(Command::Disarm));
         events.extend(upload(&steps(ALL_AT_ONCE)).into_iter().skip(1));
         events.pop();
+    }
+    events
+}
+
+fn toggled() -> Vec<Event> {
+    let mut events = start(ALL_AT_ONCE);
+    // Buffers end where they end: begin with either.
+    for first in 0..2 {
+        let turns = [arm(), Command::Disarm, arm(), Command::Disarm, arm(), Command::Disarm, arm()];
+        events.push(Event::Requests(turns.into_iter().skip(first).collect()));
+        events.extend([request(Command::Start { run: RUN }), pass(2, 2)]);
     }
     events
 }
