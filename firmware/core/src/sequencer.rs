@@ -210,8 +210,7 @@ impl<const STEPS: usize> Sequencer<STEPS> {
 
     /// Starts what may start; the load is summed up once, so that a tick takes no longer the more steps wait.
     fn start_ready(&mut self, steps: &[Step], instant: &Instant<'_>, events: &mut EventQueue) {
-        let mut load = Load::NONE;
-        self.slots.iter().zip(steps).for_each(|(slot, step)| load.add(slot, step));
+        let mut load = self.taken(steps);
         for (at, step) in steps.iter().enumerate() {
             let waiting = matches!(self.slots.get(at), Some(Slot::Waiting));
             if !waiting || !load.leaves_room_for(step, instant, events) || !self.are_open(&step.after) {
@@ -229,6 +228,22 @@ impl<const STEPS: usize> Sequencer<STEPS> {
     fn are_open(&self, steps: &[u16]) -> bool {
         let mut slots = steps.iter().map(|step| self.slots.get(usize::from(*step)));
         slots.all(|slot| slot.is_some_and(|slot| is_open(slot.state())))
+    }
+
+    fn taken(&self, steps: &[Step]) -> Load {
+        let mut load = Load::NONE;
+        self.slots.iter().zip(steps).for_each(|(slot, step)| load.add(slot, step));
+        load
+    }
+
+    /// Most current that all motions together may draw now, by the program.
+    pub(crate) fn planned(&self, steps: &[Step]) -> Milliamps {
+        self.taken(steps).current
+    }
+
+    /// A servo is moved or held: what it draws depends on its load.
+    pub(crate) fn drives_servo(&self) -> bool {
+        self.slots.iter().any(|slot| matches!(slot, Slot::Active(Motion::Turn(_))))
     }
 
     /// Marks what was moving when everything went off.

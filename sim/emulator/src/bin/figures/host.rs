@@ -6,11 +6,13 @@ use crate::target::Applied;
 use zygote_core::Inputs;
 use zygote_protocol::{
     Command, Decoder, FrameKind, Header, Hello, MAX_ENCODED, MAX_PAYLOAD, Micros, Milliamps, Millivolts,
-    Request, encode,
+    NO_SESSION, Request, encode, granted_session,
 };
 
 /// Bytes that a board hands over at once.
 pub(crate) const BUFFER: usize = 128;
+/// The boot id at the start of every sequence.
+pub(crate) const BOOT: u32 = 7;
 /// A reading at about 25 °C.
 pub(crate) const ROOM: u16 = 2_048;
 
@@ -22,7 +24,7 @@ pub(crate) enum Event {
     Requests(Vec<Command>),
     /// The payload of a request in sequence, whatever it is.
     Payload(Vec<u8>),
-    /// A good frame out of sequence.
+    /// A good frame out of sequence, of the session that a hello of this number opens.
     Frame {
         kind: FrameKind,
         session: u32,
@@ -62,12 +64,12 @@ pub(crate) struct Host<'a> {
 
 impl<'a> Host<'a> {
     pub(crate) fn new(pair: &'a mut Pair) -> Result<Self, PairError> {
-        pair.power_off(Micros(0), 7)?;
+        pair.power_off(Micros(0), BOOT)?;
         Ok(Self {
             pair,
             now: Micros(0),
-            boot: 7,
-            session: 1,
+            boot: BOOT,
+            session: NO_SESSION,
             seq: 0,
             ack: 0,
             listens: true,
@@ -85,8 +87,9 @@ impl<'a> Host<'a> {
     fn event(&mut self, event: &Event) -> Result<(), PairError> {
         match event {
             Event::Hello(session) => {
-                if self.session != *session {
-                    (self.session, self.seq, self.ack) = (*session, 0, 0);
+                let granted = granted_session(*session, self.boot);
+                if self.session != granted {
+                    (self.session, self.seq, self.ack) = (granted, 0, 0);
                 }
                 let mut payload = [0; MAX_PAYLOAD];
                 let payload = postcard::to_slice(&Hello::ours(), &mut payload).map_or(&[][..], |bytes| bytes);
@@ -109,7 +112,9 @@ impl<'a> Host<'a> {
                 self.say("any request", &bytes)
             }
             Event::Frame { kind, session, seq, payload } => {
-                let header = Header { kind: *kind, session: *session, seq: *seq, ack: self.ack };
+                let session =
+                    if *session == NO_SESSION { NO_SESSION } else { granted_session(*session, self.boot) };
+                let header = Header { kind: *kind, session, seq: *seq, ack: self.ack };
                 self.say("any frame", &framed(header, payload))
             }
             Event::Raw(what, bytes) => self.say(what, bytes),

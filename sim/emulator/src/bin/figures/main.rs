@@ -24,6 +24,8 @@ use zygote_emulator::count::Linked;
 /// Random sequences, unless asked for more.
 const SEQUENCES: usize = 10;
 const SEED: u64 = 1;
+/// Runs that come to their end in the sequences that are no chance.
+const RUNS: u64 = 2;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -68,6 +70,13 @@ fn run(elf: &Path, corpus: &Path, sequences: usize, seed: u64) -> Result<(), Box
         pair.instructions / 1_000_000,
         begun.elapsed().as_secs_f64()
     );
+    if pair.finished < RUNS {
+        return Err(format!(
+            "{} runs came to their end, expected {RUNS}: this isn't the worst",
+            pair.finished
+        )
+        .into());
+    }
     println!("{}", table::hold_times(&pair)?);
     table::hold_memory(&linked)
 }

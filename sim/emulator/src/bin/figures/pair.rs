@@ -6,7 +6,7 @@ use crate::target::{Applied, Entry, Target, TargetError, Words};
 use std::collections::BTreeMap;
 use zygote_core::{Core, Duty, Inputs};
 use zygote_emulator::count::{Linked, Taken};
-use zygote_protocol::{MAX_ENCODED, Micros, RETAINED_WORDS, Retained};
+use zygote_protocol::{MAX_ENCODED, Micros, RETAINED_WORDS, Retained, State};
 
 type NativeCore = Core<CHANNELS, CHANNELS, CHANNELS, { 3 * CHANNELS }>;
 
@@ -45,9 +45,12 @@ pub(crate) struct Pair {
     kept: Words,
     changes: u32,
     energised: bool,
+    state: State,
     pub(crate) most: BTreeMap<Kind, Most>,
     /// The sequence that is played.
     pub(crate) sequence: String,
+    /// Runs that came to their end: without any, nothing that was seen is the worst.
+    pub(crate) finished: u64,
     pub(crate) calls: u64,
     pub(crate) instructions: u64,
 }
@@ -60,8 +63,10 @@ impl Pair {
             kept: [0; RETAINED_WORDS],
             changes: 0,
             energised: false,
+            state: State::Idle,
             most: BTreeMap::new(),
             sequence: String::new(),
+            finished: 0,
             calls: 0,
             instructions: 0,
         };
@@ -130,12 +135,17 @@ impl Pair {
             due: self.native.poll_timeout(now).map_or(u64::MAX, |at| at.0),
         };
         same("what is applied", now, &applied, &native)?;
+        let state = self.native.state();
         if applied.changes != self.changes {
             self.changes = applied.changes;
             let (words, taken) = self.target.keep(now)?;
             self.note(Entry::Keep, "", taken);
             same("what is kept", now, &words, &Retained::new(&self.native.snapshot(now)).to_words())?;
             self.kept = words;
+        }
+        if state != self.state {
+            self.state = state;
+            self.finished += u64::from(state == State::Finished);
         }
         self.energised = applied.dead_line != u64::MAX;
         Ok(applied)

@@ -16,16 +16,16 @@ const LATEST_TICK_US: u64 = 5_000;
 /// Milliseconds in which a stop has to act (S8).
 const STOP_MS: u64 = 10;
 
-/// Cycles that an entry may take at most, from flash whose accelerator has nothing: about a tenth above what was seen, so that growth
-/// is noticed.
+/// Cycles that an entry may take at most, a seventh above what was seen, so that growth is noticed. Those from flash are no measure of
+/// growth: they change with where the linker puts what.
 const fn budget(entry: Entry) -> u64 {
     match entry {
-        Entry::New => 25_000,
-        Entry::HandleBytes => 300_000,
-        Entry::Tick => 82_000,
-        Entry::PollTransmit => 31_000,
-        Entry::Apply => 2_200,
-        Entry::Keep => 24_000,
+        Entry::New => 18_000,
+        Entry::HandleBytes => 178_000,
+        Entry::Tick => 59_000,
+        Entry::PollTransmit => 23_500,
+        Entry::Apply => 1_500,
+        Entry::Keep => 17_000,
     }
 }
 
@@ -108,9 +108,10 @@ fn between_ticks(pair: &Pair, cycles: impl Fn(Taken) -> u64) -> u64 {
 
 pub(crate) fn hold_times(pair: &Pair) -> Result<String, OverBudget> {
     for entry in Entry::ALL {
-        let got = of_entry(pair, entry).taken.cycles_from_flash;
-        hold(format!("cycles of {}", entry.name()), got, budget(entry))?;
-        hold(format!("cycles of {}, with a stop in {STOP_MS} ms", entry.name()), got, STOP_MS * 1_000 * MHZ)?;
+        let Taken { cycles, cycles_from_flash, .. } = of_entry(pair, entry).taken;
+        let (name, stop) = (entry.name(), STOP_MS * 1_000 * MHZ);
+        hold(format!("cycles of {name}"), cycles, budget(entry))?;
+        hold(format!("cycles of {name} from flash, with a stop in {STOP_MS} ms"), cycles_from_flash, stop)?;
     }
     let cycles = between_ticks(pair, |taken| taken.cycles);
     let from_flash = between_ticks(pair, |taken| taken.cycles_from_flash);

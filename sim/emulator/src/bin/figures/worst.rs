@@ -2,11 +2,11 @@
 
 use crate::call::CHANNELS;
 use crate::config::CEILING;
-use crate::host::{BUFFER, Event, framed};
+use crate::host::{BOOT, BUFFER, Event, framed};
 use heapless::{String, Vec as Few};
 use zygote_protocol::{
     Action, CentiCelsius, Command, FrameKind, Header, Heat, Milliamps, Millis, NO_SESSION, Release,
-    STEPS_PER_COMMAND, Step, Turn, Urgent, WINDOW, program_crc,
+    STEPS_PER_COMMAND, Step, Turn, Urgent, WINDOW, granted_session, program_crc,
 };
 
 /// Steps that fill a program.
@@ -224,11 +224,12 @@ fn toggled() -> Vec<Event> {
 
 fn noise() -> Vec<Event> {
     let raw = |what, bytes| Event::Raw(what, bytes);
-    let ack = framed(Header { kind: FrameKind::Ack, session: 1, seq: 0, ack: 0 }, &[]);
+    let session = granted_session(1, BOOT);
+    let ack = framed(Header { kind: FrameKind::Ack, session, seq: 0, ack: 0 }, &[]);
     let stranger = framed(Header { kind: FrameKind::Data, session: 9, seq: 0, ack: 0 }, &[]);
     let urgent = framed(Header { kind: FrameKind::Urgent, session: 9, seq: 0, ack: 0 }, &[]);
     let often = |bytes: &[u8]| bytes.iter().copied().cycle().take(BUFFER).collect();
-    let mut longest = framed(Header { kind: FrameKind::Data, session: 1, seq: 9, ack: 0 }, &[7; 240]);
+    let mut longest = framed(Header { kind: FrameKind::Data, session, seq: 9, ack: 0 }, &[7; 240]);
     longest.resize(2 * BUFFER, 0);
     vec![
         Event::Hello(1),
