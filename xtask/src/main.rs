@@ -6,6 +6,7 @@ mod bench;
 mod campaign;
 mod demo;
 mod docs;
+mod figures;
 mod firmware;
 mod fuzz;
 mod hil;
@@ -29,6 +30,11 @@ const PARTS: &[Part] = &[
     Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
     Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: hil::run },
     Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },
+    Part {
+        verb: "figures",
+        about: "what the core takes at most, counted on the emulated processor",
+        run: || figures::run(&[]),
+    },
 ];
 
 fn main() -> ExitCode {
@@ -38,6 +44,7 @@ fn main() -> ExitCode {
             "fuzz" => return told(fuzz::run(options)),
             "campaign" => return told(campaign::run(options)),
             "mutants" => return told(mutants::run(options)),
+            "figures" => return told(figures::run(options)),
             _ => {}
         }
     }

@@ -67,7 +67,10 @@ impl<const STEPS: usize> Program<STEPS> {
         if usize::from(steps) > STEPS {
             return Err(refuse(RefusalCode::TooManySteps, 0, index(STEPS), steps));
         }
-        *self = Self { state: State::Receiving, run, rig, declared: steps, crc, steps: Vec::new() };
+        // In place: a second program would lie on the stack for a moment.
+        let Self { state, run: our_run, rig: our_rig, declared, crc: our_crc, steps: stored } = self;
+        (*state, *our_run, *our_rig, *declared, *our_crc) = (State::Receiving, run, rig, steps, crc);
+        stored.clear();
         Ok(())
     }
 
