@@ -13,6 +13,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-protocol", &[]),
     ("zygote-core", &["zygote-protocol"]),
     ("zygote-sim", &["zygote-core", "zygote-protocol"]),
+    ("zygote-emulator", &["zygote-core", "zygote-protocol", "zygote-sim"]),
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
     ("zygote-controller", &["zygote-protocol", "zygote-deployment"]),

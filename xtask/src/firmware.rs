@@ -1,6 +1,6 @@
 //! `cargo xtask firmware`: builds every board, prints its sections, and holds it to its memory;
 //! then the same for codec and link alone (`firmware/link-size`), and for the whole core without board (`firmware/core-figures`), which
-//! links only if no panic is left in it.
+//! links only if no panic is left in it; `cargo xtask figures` runs that one.
 //!
 //! Where rustup has the target, the board is built as usual. Where it hasn't (a machine that cannot fetch one),
 //! Debian's compiler builds the core library from Debian's copy of its source; see
@@ -48,13 +48,23 @@ pub(crate) fn run() -> Result<()> {
     measure(&toolchain, &firmware.join("core-figures"), "core-figures", CORE_BUDGET)
 }
 
-/// Builds what is in a folder, prints its sections, and holds it to its memory.
-fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::Budget) -> Result<()> {
+/// Builds the core without a board; its ELF file.
+pub(crate) fn core_figures() -> Result<PathBuf> {
+    build(&Toolchain::find()?, &tools::root().join("firmware/core-figures"), "core-figures")
+}
+
+/// Builds what is in a folder; its ELF file.
+fn build(toolchain: &Toolchain, folder: &Path, name: &str) -> Result<PathBuf> {
     let mut build = toolchain.cargo();
     build.current_dir(folder).args(["build", "--release", "--locked", "--target", TARGET]);
     tools::run(build.arg("--target-dir").arg(target_dir()))?;
 
-    let elf = elf_of(name);
+    Ok(elf_of(name))
+}
+
+/// Builds what is in a folder, prints its sections, and holds it to its memory.
+fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::Budget) -> Result<()> {
+    let elf = build(toolchain, folder, name)?;
     let bytes = fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
     let sections = sections::of(&bytes).with_context(|| format!("cannot read {}", elf.display()))?;
     println!("\n{name}\n{}", sections::table(&sections, budget));

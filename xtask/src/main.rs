@@ -6,10 +6,12 @@ mod bench;
 mod campaign;
 mod demo;
 mod docs;
+mod figures;
 mod firmware;
 mod fuzz;
 mod hil;
 mod lint;
+mod mutants;
 mod parts;
 mod probe;
 mod python;
@@ -30,6 +32,11 @@ const PARTS: &[Part] = &[
     Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
     Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: hil::run },
     Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },
+    Part {
+        verb: "figures",
+        about: "what the core takes at most, counted on the emulated processor",
+        run: || figures::run(&[]),
+    },
 ];
 
 fn main() -> ExitCode {
@@ -40,6 +47,8 @@ fn main() -> ExitCode {
             "campaign" => return told(campaign::run(options)),
             "flash" => return told(probe::flash(options)),
             "log" => return told(probe::log(options)),
+            "mutants" => return told(mutants::run(options)),
+            "figures" => return told(figures::run(options)),
             _ => {}
         }
     }
@@ -81,7 +90,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

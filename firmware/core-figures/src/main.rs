@@ -1,18 +1,44 @@
-//! Everything that a board calls of the core, with inputs that the compiler cannot see. The panic handler calls what is nowhere to be
-//! found: were a panic left anywhere in core, link or codec, this would not link. It never runs.
+//! Everything that a board calls of the core, each call an entry of its own, with inputs that the compiler cannot see. The panic
+//! handler calls what is nowhere to be found: were a panic left anywhere in core, link or codec, this would not link.
+//!
+//! No board runs it: the emulator calls the entries one by one and counts (`sim/emulator/src/bin/figures`).
 #![no_std]
 #![no_main]
 
-use core::hint::black_box;
-use core::sync::atomic::AtomicU8;
-use zygote_core::{Config, Core, Inputs};
-use zygote_protocol::{MAX_ENCODED, Micros, Milliamps, Millivolts, Retained, Snapshot};
+mod call;
+mod config;
+
+use call::{CHANNELS, Call};
+use core::mem::MaybeUninit;
+use core::sync::atomic::AtomicU32;
+use zygote_core::{Core, Inputs};
+use zygote_protocol::{Micros, Milliamps, Millivolts, Retained};
 
 /// As many channels as a board of 16 heaters with 16 servos and 16 springs has.
-type AnyCore = Core<16, 16, 16, 48>;
+type AnyCore = Core<CHANNELS, CHANNELS, CHANNELS, { 3 * CHANNELS }>;
 
-/// The RAM of one core.
-static RAM: [AtomicU8; size_of::<AnyCore>()] = [const { AtomicU8::new(0) }; size_of::<AnyCore>()];
+/// RAM for something; the emulator finds it by its name.
+#[repr(align(8))]
+struct Room<const WORDS: usize>([AtomicU32; WORDS]);
+
+impl<const WORDS: usize> Room<WORDS> {
+    const fn new() -> Self {
+        Self([const { AtomicU32::new(0) }; WORDS])
+    }
+}
+
+const fn words<T>() -> usize {
+    size_of::<T>().div_ceil(size_of::<u32>())
+}
+
+#[expect(unsafe_code, reason = "the emulator finds it by its name")]
+#[unsafe(no_mangle)]
+static FIGURES_CORE: Room<{ words::<AnyCore>() }> = Room::new();
+
+/// What goes in and out.
+#[expect(unsafe_code, reason = "the emulator finds it by its name")]
+#[unsafe(no_mangle)]
+static FIGURES_CALL: Room<{ words::<Call>() }> = Room::new();
 
 #[expect(unsafe_code, reason = "a name that the linker looks for and must not find")]
 unsafe extern "C" {
@@ -24,38 +50,75 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     a_panic_is_left_in_the_core()
 }
 
-/// A value that the compiler must take for possible.
-fn any<T>() -> Option<T> {
-    black_box(None)
-}
-
-/// What a board does with its core.
+/// A core after a reset, with what `call` says was kept over it.
 #[expect(unsafe_code, reason = "the linker finds the entry by its name")]
 #[unsafe(no_mangle)]
-extern "C" fn main() -> ! {
-    black_box(&RAM);
-    let mut out = [0; MAX_ENCODED];
-    loop {
-        let now = || Micros(black_box(1));
-        if let Some(config) = any::<Config>() {
-            let mut core = AnyCore::new(config, now(), any::<Snapshot>());
-            loop {
-                core.handle_bytes(now(), black_box(&[]));
-                core.tick(
-                    now(),
-                    &Inputs {
-                        thermistors: black_box(&[]),
-                        supply: Millivolts(black_box(1)),
-                        current: Milliamps(black_box(1)),
-                        stop_pressed: black_box(false),
-                        servos_lost: false,
-                    },
-                );
-                black_box(core.poll_transmit(now(), black_box(&mut out)));
-                black_box((core.outputs(), core.dead_line(), core.changes(), core.poll_timeout(now())));
-                black_box(Retained::new(&core.snapshot(now())).to_words());
-                black_box(Retained::from_words(&black_box([0; zygote_protocol::RETAINED_WORDS])).recall());
-            }
-        }
+extern "C" fn figures_new(core: &mut MaybeUninit<AnyCore>, call: &mut Call) {
+    let before = Retained::from_words(&call.retained).recall();
+    core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before));
+}
+
+#[expect(unsafe_code, reason = "the linker finds the entry by its name")]
+#[unsafe(no_mangle)]
+extern "C" fn figures_handle_bytes(core: &mut AnyCore, call: &mut Call) {
+    let length = usize::try_from(call.length).unwrap_or(0);
+    core.handle_bytes(Micros(call.now), call.bytes.get(..length).unwrap_or_default());
+}
+
+#[expect(unsafe_code, reason = "the linker finds the entry by its name")]
+#[unsafe(no_mangle)]
+extern "C" fn figures_tick(core: &mut AnyCore, call: &mut Call) {
+    let inputs = Inputs {
+        thermistors: &call.thermistors,
+        supply: Millivolts(call.supply),
+        current: Milliamps(call.current),
+        stop_pressed: call.stop_pressed != 0,
+        servos_lost: false,
+    };
+    core.tick(Micros(call.now), &inputs);
+}
+
+#[expect(unsafe_code, reason = "the linker finds the entry by its name")]
+#[unsafe(no_mangle)]
+extern "C" fn figures_poll_transmit(core: &mut AnyCore, call: &mut Call) {
+    let length = core.poll_transmit(Micros(call.now), &mut call.bytes);
+    call.length = u32::try_from(length).unwrap_or(0);
+}
+
+/// What a board does after each call: what the actuators are to do, and until when.
+#[expect(unsafe_code, reason = "the linker finds the entry by its name")]
+#[unsafe(no_mangle)]
+extern "C" fn figures_apply(core: &mut AnyCore, call: &mut Call) {
+    let outputs = core.outputs();
+    call.main_switch = outputs.main_switch.into();
+    for (to, from) in call.heaters.iter_mut().zip(outputs.heaters) {
+        *to = from.per_mille();
+    }
+    for (to, from) in call.servos.iter_mut().zip(outputs.servos) {
+        *to = from.map_or(0, |pulse| pulse.0);
+    }
+    for (to, from) in call.springs.iter_mut().zip(outputs.springs) {
+        *to = from.into();
+    }
+    call.changes = core.changes();
+    call.dead_line = core.dead_line().map_or(u64::MAX, |at| at.0);
+    call.due = core.poll_timeout(Micros(call.now)).map_or(u64::MAX, |at| at.0);
+}
+
+/// What a board does whenever [`Core::changes`] is another.
+#[expect(unsafe_code, reason = "the linker finds the entry by its name")]
+#[unsafe(no_mangle)]
+extern "C" fn figures_keep(core: &mut AnyCore, call: &mut Call) {
+    call.retained = Retained::new(&core.snapshot(Micros(call.now))).to_words();
+}
+
+/// What a board does with settings: writes them down, says so, and knows them after the next start. Not counted, for nothing is
+/// energised then.
+#[expect(unsafe_code, reason = "the linker finds the entry by its name")]
+#[unsafe(no_mangle)]
+extern "C" fn figures_settings(core: &mut AnyCore, call: &mut Call) {
+    if let Some(settings) = core.to_store().copied() {
+        core.stored(call.stop_pressed != 0);
+        core.restore(&settings);
     }
 }

@@ -43,6 +43,14 @@ pub(crate) struct Instant<'a> {
     pub(crate) temperature: &'a dyn Fn(u16) -> Option<CentiCelsius>,
 }
 
+/// What the motions under way take.
+#[derive(Debug, Clone, Copy)]
+struct Load {
+    current: Milliamps,
+    /// Motions that aren't over yet.
+    motions: usize,
+}
+
 /// The state of every step of a run.
 #[derive(Debug)]
 pub(crate) struct Sequencer<const STEPS: usize> {
@@ -130,6 +138,22 @@ impl Slot {
     }
 }
 
+impl Load {
+    const NONE: Self = Self { current: Milliamps(0), motions: 0 };
+
+    fn add(&mut self, slot: &Slot, step: &Step) {
+        if let Slot::Active(motion) = slot {
+            self.current.0 = self.current.0.saturating_add(motion.current(&step.action).0);
+            self.motions += usize::from(motion.step_state() != StepState::Done);
+        }
+    }
+
+    fn leaves_room_for(self, step: &Step, instant: &Instant<'_>, events: &EventQueue) -> bool {
+        self.current.0.saturating_add(step.action.current().0) <= instant.supply.0
+            && events.room() >= (self.motions + 1) * EVENTS_PER_MOTION
+    }
+}
+
 fn is_open(state: StepState) -> bool {
     matches!(state, StepState::Opened | StepState::Done)
 }
@@ -141,7 +165,9 @@ impl<const STEPS: usize> Sequencer<STEPS> {
 
     /// Makes every step of a program wait.
     pub(crate) fn load(&mut self, steps: &[Step]) {
-        self.slots = steps.iter().take(STEPS).map(|_| Slot::Waiting).collect();
+        // In place: a second program's worth of slots would lie on the stack for a moment.
+        self.slots.clear();
+        self.slots.extend(steps.iter().take(STEPS).map(|_| Slot::Waiting));
     }
 
     /// Steps that have opened.
@@ -182,45 +208,37 @@ impl<const STEPS: usize> Sequencer<STEPS> {
         Ok(())
     }
 
+    /// Starts what may start; the load is summed up once, so that a tick takes no longer the more steps wait.
     fn start_ready(&mut self, steps: &[Step], instant: &Instant<'_>, events: &mut EventQueue) {
+        let mut load = self.taken(steps);
         for (at, step) in steps.iter().enumerate() {
             let waiting = matches!(self.slots.get(at), Some(Slot::Waiting));
-            if !waiting || !self.may_start(steps, step, instant, events) {
+            if !waiting || !load.leaves_room_for(step, instant, events) || !self.are_open(&step.after) {
                 continue;
             }
             if let (Some(slot), Some(motion)) = (self.slots.get_mut(at), Motion::start(&step.action, instant))
             {
                 *slot = Slot::Active(motion);
+                load.add(slot, step);
                 events.push(Event { at: instant.now, kind: EventKind::StepStarted { step: index(at) } });
             }
         }
     }
 
-    fn may_start(&self, steps: &[Step], step: &Step, instant: &Instant<'_>, events: &EventQueue) -> bool {
-        let before_are_open = step
-            .after
-            .iter()
-            .all(|before| self.slots.get(usize::from(*before)).is_some_and(|slot| is_open(slot.state())));
-        if !before_are_open {
-            return false;
-        }
-        let moving = |motion: &&Motion| motion.step_state() != StepState::Done;
-        let motions = 1 + self.motions_of(steps).map(|(motion, _)| motion).filter(moving).count();
-        let sum = self.planned(steps).0.saturating_add(step.action.current().0);
-        sum <= instant.supply.0 && events.room() >= motions * EVENTS_PER_MOTION
+    fn are_open(&self, steps: &[u16]) -> bool {
+        let mut slots = steps.iter().map(|step| self.slots.get(usize::from(*step)));
+        slots.all(|slot| slot.is_some_and(|slot| is_open(slot.state())))
     }
 
-    fn motions_of<'a>(&'a self, steps: &'a [Step]) -> impl Iterator<Item = (&'a Motion, &'a Step)> {
-        self.slots.iter().zip(steps).filter_map(|(slot, step)| match slot {
-            Slot::Active(motion) => Some((motion, step)),
-            Slot::Waiting | Slot::Ended(_) => None,
-        })
+    fn taken(&self, steps: &[Step]) -> Load {
+        let mut load = Load::NONE;
+        self.slots.iter().zip(steps).for_each(|(slot, step)| load.add(slot, step));
+        load
     }
 
     /// Most current that all motions together may draw now, by the program.
     pub(crate) fn planned(&self, steps: &[Step]) -> Milliamps {
-        let currents = self.motions_of(steps).map(|(motion, step)| motion.current(&step.action).0);
-        Milliamps(currents.fold(0, u32::saturating_add))
+        self.taken(steps).current
     }
 
     /// A servo is moved or held: what it draws depends on its load.
@@ -299,3 +317,6 @@ fn drive<const H: usize, const S: usize, const R: usize>(motion: &Motion, output
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -67,3 +67,22 @@ fn a_hello_of_session_0_is_answered_and_opens_nothing() {
     assert_eq!(header.session, NO_SESSION);
     assert!(is_closed(&mut core));
 }
+
+#[test]
+fn a_hello_that_is_wrong_in_one_thing_only_opens_nothing() {
+    let ours = schema::hash();
+    for (min, current, schema) in
+        [(VERSION + 1, VERSION + 2, ours), (0, VERSION_MIN - 1, ours), (VERSION, VERSION, !ours)]
+    {
+        let mut core = core();
+        assert!(answer(&mut core, 5, &hello(min, current, schema, &[])).is_some());
+        assert!(is_closed(&mut core), "versions {min} to {current}, schema {schema:#x}");
+    }
+}
+
+#[test]
+fn a_hello_that_spans_several_versions_opens_its_session() {
+    let mut core = core();
+    answer(&mut core, 5, &hello(VERSION_MIN - 1, VERSION + 1, schema::hash(), &[])).unwrap();
+    assert!(!is_closed(&mut core));
+}

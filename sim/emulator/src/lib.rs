@@ -1,0 +1,3 @@
+//! Programs for a Cortex-M4F, run instruction by instruction.
+
+pub mod count;
