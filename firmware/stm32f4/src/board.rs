@@ -19,6 +19,7 @@ use embassy_stm32::{
     gpio::{Level, Output, Pin, Speed},
     interrupt,
     interrupt::{InterruptExt, Priority},
+    pac::Interrupt,
     peripherals::FLASH,
     usart::{BufferedUartRx, BufferedUartTx},
 };
@@ -59,11 +60,7 @@ pub struct Board {
 }
 
 /// An interrupt without use on these boards: it carries the high executor.
-macro_rules! carrier {
-    () => {
-        interrupt::UART5
-    };
-}
+const CARRIER: Interrupt = Interrupt::UART5;
 
 static HIGH: InterruptExecutor = InterruptExecutor::new();
 
@@ -105,8 +102,8 @@ pub fn run(board: Board) -> ! {
     let start = Start { config: config(boot, cause), kept, keeping };
 
     // Below the interrupts of time, line, stop button and dead man's switch, above the low executor.
-    carrier!().set_priority(Priority::P6);
-    let high = HIGH.start(carrier!());
+    CARRIER.set_priority(Priority::P6);
+    let high = HIGH.start(CARRIER);
     high.spawn(defmt::unwrap!(begin(start, actuators, sensors, receiver, transmitter)));
     LOW.init(Executor::new()).run(|spawner| {
         spawner.spawn(defmt::unwrap!(servo_bus::serve(servos)));
