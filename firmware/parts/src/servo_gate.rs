@@ -59,13 +59,14 @@ impl Default for ServoGate {
 }
 
 #[cfg(test)]
-#[expect(clippy::indexing_slicing, reason = "few channels")]
 mod tests {
     use super::*;
 
     fn pulses(of: &[(usize, u16)]) -> Pulses {
         let mut pulses = [None; CHANNELS];
-        of.iter().for_each(|&(channel, us)| pulses[channel] = Some(PulseMicros(us)));
+        for &(channel, us) in of {
+            pulses[channel] = Some(PulseMicros(us));
+        }
         pulses
     }
 

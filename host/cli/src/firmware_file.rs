@@ -17,7 +17,9 @@ pub(crate) struct Card {
 
 /// The card of the program in this file.
 pub(crate) fn card_of(path: &Path) -> Result<Card> {
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let bytes = std::fs::read(path).with_context(|| {
+        format!("cannot read {} (`cargo xtask firmware` builds those that there are)", path.display())
+    })?;
     read(&bytes).with_context(|| format!("{} can't be flashed", path.display()))
 }
 
