@@ -54,8 +54,13 @@ pub(crate) fn output_of(command: &mut Command) -> Result<String> {
 /// # Errors
 /// When it is missing and cannot be built.
 pub(crate) fn from_crates_io(name: &str, version: &str, install_options: &[&str]) -> Result<PathBuf> {
-    let is_there =
-        |program: &Path| Command::new(program).arg("--version").output().is_ok_and(|o| o.status.success());
+    // Called by itself, a subcommand of cargo may want the word that cargo would give it.
+    let word = name.strip_prefix("cargo-");
+    let is_there = |program: &Path| {
+        let tells = |command: &mut Command| command.output().is_ok_and(|told| told.status.success());
+        tells(Command::new(program).arg("--version"))
+            || word.is_some_and(|word| tells(Command::new(program).args([word, "--version"])))
+    };
     if is_there(Path::new(name)) {
         return Ok(name.into());
     }

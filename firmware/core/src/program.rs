@@ -359,7 +359,8 @@ mod tests {
 
     #[test]
     fn s13_a_channel_past_the_last_one_fitted_is_refused_with_the_last_one() {
-        let kinds: [(fn(u16) -> Action, u16); 3] = [
+        type Make = fn(u16) -> Action;
+        let kinds: [(Make, u16); 3] = [
             (|channel| Action::Heat(Heat { channel, ..GOOD }), CHANNELS.heaters),
             (|channel| Action::Turn(turn(channel, 500, 500)), CHANNELS.servos),
             (|channel| Action::Release(release(channel, Millis(1))), CHANNELS.springs),

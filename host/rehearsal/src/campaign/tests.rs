@@ -6,10 +6,10 @@ use super::*;
 const SEED: u64 = 1;
 
 #[test]
-fn two_hundred_random_trials_break_no_rule() {
-    let summary = run(SEED, 200, 2).unwrap();
+fn two_thousand_random_trials_break_no_rule() {
+    let summary = run(SEED, 2_000, 2).unwrap();
     println!("{summary}");
-    assert_eq!(summary.runs, 200);
+    assert_eq!(summary.runs, 2_000);
     assert!(summary.failures.is_empty(), "seed {SEED}: {:#?}", summary.failures);
 }
 
