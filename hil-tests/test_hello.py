@@ -8,7 +8,7 @@ from bench import run
 from zygote_wire import commands, postcard, reports
 from zygote_wire.codes import Faulted
 from zygote_wire.frames import Frame, Kind
-from zygote_wire.hello import SCHEMA, VERSION, Hello, HelloReply
+from zygote_wire.hello import SCHEMA, VERSION, Hello, HelloReply, granted_session
 from zygote_wire.link import Link, SessionLost
 
 
@@ -71,13 +71,14 @@ def test_another_session_turns_off_what_one_had_armed(link, program, mcu):
 def test_a_hello_of_another_version_is_told_ours_and_opens_nothing(port, session, hello, more):
     _, reply = answer(port, Frame(Kind.HELLO, session, payload=postcard.encode(hello) + more))
     assert (reply.min, reply.current, reply.schema) == (VERSION, VERSION, SCHEMA)
-    assert_unknown(port, session)
+    assert_unknown(port, granted_session(session, reply.identity.boot))
 
 
 def test_a_hello_of_session_0_opens_nothing(port):
-    frame, _ = answer(port, Frame(Kind.HELLO, session=0, payload=postcard.encode(Hello())))
+    frame, reply = answer(port, Frame(Kind.HELLO, session=0, payload=postcard.encode(Hello())))
     assert frame.session == 0
     assert_unknown(port, 0)
+    assert_unknown(port, granted_session(0, reply.identity.boot))
 
 
 def test_a_hello_of_another_version_leaves_the_open_session_alone(link):

@@ -78,12 +78,12 @@ def test_a_request_that_comes_again_long_after_is_not_executed_again(port, sessi
     link = Link(port, session)
     link.hello()
     command = commands.Upload(run.RUN, program.rig, 1, 0)
-    request = Frame(Kind.DATA, session, payload=postcard.encode(commands.Request(0, command)))
+    request = Frame(Kind.DATA, link.session, payload=postcard.encode(commands.Request(0, command)))
     port.send(request)
     first = [frame for frame in port.listen(0.2) if frame.kind == Kind.DATA]
     assert first, "the first one is answered"
     # Acknowledged, so that only what is new would come as Data.
-    port.send(Frame(Kind.ACK, session, ack=max(frame.seq for frame in first) + 1))
+    port.send(Frame(Kind.ACK, link.session, ack=max(frame.seq for frame in first) + 1))
     port.listen(0.1)
     port.send(request)
     again = port.listen(0.3)
@@ -92,9 +92,10 @@ def test_a_request_that_comes_again_long_after_is_not_executed_again(port, sessi
 
 
 def test_a_gap_is_asked_for_with_a_nack(port, session):
-    Link(port, session).hello()
+    link = Link(port, session)
+    link.hello()
     status = postcard.encode(commands.Request(5, commands.Status()))
-    port.send(Frame(Kind.DATA, session, seq=1, payload=status))
+    port.send(Frame(Kind.DATA, link.session, seq=1, payload=status))
     heard = port.listen(0.3)
     assert [frame.ack for frame in heard if frame.kind == Kind.NACK] == [0]
     assert not [frame for frame in heard if frame.kind == Kind.DATA]
@@ -141,7 +142,8 @@ def test_the_longest_frame_is_taken_and_one_byte_more_is_not(port, session):
 
 
 def test_requests_that_cannot_be_read_are_refused_and_the_next_one_is_answered(port, session):
-    Link(port, session).hello()
+    link = Link(port, session)
+    link.hello()
     unreadable = [
         varint(7) + b"\x63",
         postcard.encode(commands.Request(8, commands.Upload(1, "r" * 33, 1, 0))),
@@ -149,7 +151,7 @@ def test_requests_that_cannot_be_read_are_refused_and_the_next_one_is_answered(p
     ]
     readable = postcard.encode(commands.Request(10, commands.Status()))
     for seq, payload in enumerate([*unreadable, readable]):
-        port.send(Frame(Kind.DATA, session, seq, payload=payload))
+        port.send(Frame(Kind.DATA, link.session, seq, payload=payload))
     answers = [
         postcard.decode(reports.Report, frame.payload) for frame in port.listen(0.3) if frame.kind == Kind.DATA
     ]
@@ -162,7 +164,7 @@ def test_requests_that_cannot_be_read_are_refused_and_the_next_one_is_answered(p
 def test_a_host_that_stops_reading_holds_nothing_up(port, session):
     link = Link(port, session)
     link.hello()
-    status = Frame(Kind.DATA, session, 0, payload=postcard.encode(commands.Request(1, commands.Status())))
+    status = Frame(Kind.DATA, link.session, 0, payload=postcard.encode(commands.Request(1, commands.Status())))
     # Telemetry, events and repeated answers pile up in a line that nobody reads, for longer than it has room.
     end = time.monotonic() + 3
     while time.monotonic() < end:
