@@ -219,5 +219,7 @@ fn name(commands: &[Command]) -> &'static str {
         Command::Disarm => "Disarm",
         Command::Clear => "Clear",
         Command::LastRun => "LastRun",
+        Command::Settings => "Settings",
+        Command::Configure(_) => "Configure",
     }
 }
