@@ -1,0 +1,236 @@
+//! The chip: core, memories, peripherals, and virtual time that passes with the cycles of what the program does. A core
+//! that sleeps lets time jump to the next thing that happens.
+//!
+//! ```text
+//!   Chip::run:  interrupts, next event --> instructions until then, or until an access asks for a look --+
+//!                      ^                                                                                 |
+//!                      +------------------------------ resets, watchdog <-------------------------------+
+//! ```
+
+use crate::adc::Analog;
+use crate::bus::{Shared, Window};
+use crate::elf::Image;
+use crate::peripherals::{Peripherals, Unmodelled};
+use crate::pins::Drive;
+use crate::rcc::Reset;
+use rsemu::core::device::{Device, ResetKind};
+use rsemu::core::space::{AddressSpace, RamStore, Region, RomStore, RomWrite};
+use rsemu::cpu::arm::v7m::{ArmV7m, Config};
+use std::ops::Range;
+use std::sync::Arc;
+use zygote_sim::Chance;
+
+/// 512 KiB of flash.
+pub(crate) const FLASH: Range<u32> = 0x0800_0000..0x0808_0000;
+/// 128 KiB of RAM.
+pub(crate) const RAM: Range<u32> = 0x2000_0000..0x2002_0000;
+const PERIPHERALS: Range<u32> = 0x4000_0000..0x5000_0000;
+const DEBUG: Range<u32> = 0xe004_2000..0xe004_2400;
+/// The page with the chip's number.
+const SYSTEM: Range<u32> = 0x1fff_7800..0x1fff_8000;
+const UNIQUE_ID: u32 = 0x1fff_7a10;
+const NUMBER: &[u8; 12] = b"zygote-emul1";
+/// The STM32F4 has 16 levels of priority.
+const PRIORITY_BITS: u8 = 4;
+/// Instructions between two looks at whether the program asked for a reset.
+const STRIDE: u32 = 64;
+
+/// Why the emulation can't go on.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ChipError {
+    /// The program needs a peripheral that isn't there.
+    #[error(
+        "the program {} {address:#010x} (at instruction {pc:#010x}, after {seconds:.6} s), and nothing is modelled there",
+        if *write { "writes" } else { "reads" },
+        seconds = *ps as f64 / 1e12
+    )]
+    Unmodelled {
+        /// The address.
+        address: u32,
+        /// It was a write.
+        write: bool,
+        /// Where the program was by then.
+        pc: u32,
+        /// When, in picoseconds.
+        ps: u64,
+    },
+    /// The memory map doesn't fit together.
+    #[error("the memory of the chip can't be laid out: {what}")]
+    Map {
+        /// What the emulator's core says.
+        what: String,
+    },
+}
+
+/// An STM32F446 with a program in it.
+pub(crate) struct Chip {
+    core: ArmV7m,
+    shared: Arc<Shared>,
+    instructions: u64,
+    /// What the latest resets were for.
+    resets: Vec<(u64, Reset)>,
+    hung: bool,
+}
+
+impl Chip {
+    /// Just switched on; what its RAM holds then is a matter of chance.
+    pub(crate) fn new(image: &Image, seed: u64) -> Result<Self, ChipError> {
+        let shared = Arc::new(Shared::new(Peripherals::new()));
+        let space = AddressSpace::new("stm32f446", 32);
+        let mut flash = image.flash.clone();
+        flash.resize((FLASH.end - FLASH.start) as usize, 0xff);
+        let ram = RamStore::new((RAM.end - RAM.start).into());
+        let mut chance = Chance::new(seed);
+        for at in (0..ram.len()).step_by(8) {
+            ram.write_at(at, &chance.bits().to_le_bytes()).map_err(map_error)?;
+        }
+        let mut system = vec![0xff; SYSTEM.len()];
+        let number = (UNIQUE_ID - SYSTEM.start) as usize;
+        if let Some(place) = system.get_mut(number..number + NUMBER.len()) {
+            place.copy_from_slice(NUMBER);
+        }
+        let map = |region: Region, base: u32| {
+            space.topology().map(region, base.into()).map(drop).map_err(map_error)
+        };
+        map(Region::rom("flash", Arc::new(RomStore::new(flash)), RomWrite::Fault), FLASH.start)?;
+        map(Region::rom("system", Arc::new(RomStore::new(system)), RomWrite::Fault), SYSTEM.start)?;
+        map(Region::ram("ram", Arc::new(ram)), RAM.start)?;
+        for (name, range) in [("peripherals", PERIPHERALS), ("debug", DEBUG)] {
+            let window = Window { base: range.start, shared: Arc::clone(&shared) };
+            map(Region::io(name, range.len() as u64, Arc::new(window)), range.start)?;
+        }
+        let config = Config::CORTEX_M4F.with_priority_bits(PRIORITY_BITS).with_reset_vtor(FLASH.start);
+        let core = ArmV7m::new(config);
+        core.attach_space(Arc::new(space));
+        Ok(Self { core, shared, instructions: 0, resets: vec![(0, Reset::Power)], hung: false })
+    }
+
+    /// Virtual time in picoseconds.
+    pub(crate) fn ps(&self) -> u64 {
+        self.shared.peripherals().clock.ps(self.shared.now())
+    }
+
+    /// Instructions executed so far.
+    pub(crate) fn instructions(&self) -> u64 {
+        self.instructions
+    }
+
+    /// What the pins do.
+    pub(crate) fn drive(&self) -> Drive {
+        self.shared.peripherals().drive
+    }
+
+    /// Resets so far, with when they were, in picoseconds.
+    pub(crate) fn resets(&self) -> &[(u64, Reset)] {
+        &self.resets
+    }
+
+    /// What lies at the converter's inputs from now on.
+    pub(crate) fn apply(&mut self, analog: Analog) {
+        self.shared.peripherals().analog = analog;
+    }
+
+    pub(crate) fn press_stop(&mut self, pressed: bool) {
+        self.shared.peripherals().press_stop(pressed);
+        self.shared.look();
+    }
+
+    /// Bytes for the program, which the line begins to carry now.
+    pub(crate) fn send(&mut self, bytes: &[u8]) {
+        self.shared.peripherals().usart.send(bytes, self.shared.now());
+        self.shared.look();
+    }
+
+    /// Takes the bytes that the program has sent.
+    pub(crate) fn take(&mut self, out: &mut Vec<u8>) {
+        self.shared.peripherals().usart.take(out);
+    }
+
+    /// Stops the core between two instructions, as if its clock were gone; peripherals go on. A reset ends it.
+    pub(crate) fn hang(&mut self) {
+        self.hung = true;
+    }
+
+    /// Resets the chip.
+    pub(crate) fn reset(&mut self, reset: Reset) {
+        let now = self.shared.now();
+        self.shared.peripherals().reset(reset, now);
+        self.core.reset(ResetKind::Cold);
+        self.hung = false;
+        self.resets.push((self.ps(), reset));
+        self.shared.look();
+    }
+
+    /// Lets the program run until a time in picoseconds, or until its outputs change.
+    pub(crate) fn run(&mut self, until_ps: u64) -> Result<(), ChipError> {
+        let before = self.drive();
+        loop {
+            let now = self.shared.now();
+            let (until, horizon) = self.look(now, until_ps);
+            if now >= until || self.drive() != before {
+                return Ok(());
+            }
+            self.shared.set_horizon(horizon);
+            self.execute(horizon)?;
+        }
+    }
+
+    /// Looks at interrupts and the watchdog; the end in cycles, and when next something happens.
+    fn look(&mut self, now: u64, until_ps: u64) -> (u64, u64) {
+        if self.shared.peripherals().watchdog_due().is_some_and(|due| due <= now) {
+            self.reset(Reset::Watchdog);
+        }
+        self.shared.take_look();
+        let mut peripherals = self.shared.peripherals();
+        for (number, raised) in peripherals.interrupts(now) {
+            self.core.set_irq(number, raised);
+        }
+        let until = peripherals.clock.cycles(until_ps);
+        let next = peripherals.next_event().map_or(until, |next| next.min(until));
+        // Something that was due already is served by now.
+        (until, next.max(now + 1))
+    }
+
+    /// Instructions until `horizon`, or until something has to be looked at.
+    fn execute(&mut self, horizon: u64) -> Result<(), ChipError> {
+        let mut stride = 0;
+        while self.shared.now() < horizon {
+            if self.hung {
+                self.shared.set_now(horizon);
+                return Ok(());
+            }
+            let cycles = self.core.step();
+            self.instructions += 1;
+            self.shared.set_now(self.shared.now() + cycles);
+            // A wait is an instruction of one cycle.
+            if cycles == 1 && (self.core.is_asleep() || self.core.is_locked_up()) {
+                self.shared.set_now(self.shared.now().max(horizon));
+                return self.refused();
+            }
+            if self.shared.take_look() {
+                return self.refused();
+            }
+            stride += 1;
+            if stride == STRIDE {
+                stride = 0;
+                self.refused()?;
+                if self.core.reset_requested() {
+                    self.reset(Reset::Software);
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn refused(&self) -> Result<(), ChipError> {
+        let refused = self.shared.peripherals().refused;
+        refused.map_or(Ok(()), |Unmodelled { address, write }| {
+            Err(ChipError::Unmodelled { address, write, pc: self.core.pc(), ps: self.ps() })
+        })
+    }
+}
+
+fn map_error(error: impl std::fmt::Display) -> ChipError {
+    ChipError::Map { what: error.to_string() }
+}

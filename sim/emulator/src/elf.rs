@@ -1,0 +1,158 @@
+//! Reads a program for the board: what is flashed, where, and whether it is for this chip at all.
+
+use crate::chip::{FLASH, RAM};
+use object::elf::{EM_ARM, ET_EXEC, FileHeader32, PT_LOAD};
+use object::read::elf::{FileHeader, ProgramHeader, Sym};
+use object::Endianness;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Interrupts of the STM32F446, so entries of its vector table after the first sixteen.
+const INTERRUPTS: usize = 97;
+/// The vector table as `cortex-m-rt` calls it.
+const INTERRUPT_TABLE: &[u8] = b"__INTERRUPTS";
+
+/// Why a file can't be run.
+#[derive(Debug, thiserror::Error)]
+pub enum ElfError {
+    /// No such file, or it can't be read.
+    #[error("{path}: can't be read; `cargo xtask firmware` builds the board's program", path = path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        #[source]
+        source: io::Error,
+    },
+    /// Something else than a program, or a broken one.
+    #[error("not an ELF file for a 32-bit processor, or a damaged one: {what}")]
+    NotElf {
+        /// What the reader says.
+        what: object::Error,
+    },
+    /// The file ends too early.
+    #[error("the file ends before its segment for {address:#010x} does: damaged")]
+    Truncated {
+        /// Where the segment was to go.
+        address: u32,
+    },
+    /// A program of another kind.
+    #[error("{what} is {got}, expected {expected}: not a program for the STM32F446")]
+    OtherKind {
+        /// The field.
+        what: &'static str,
+        /// What the file says.
+        got: u64,
+        /// What it should say.
+        expected: u64,
+    },
+    /// A program for another chip.
+    #[error(
+        "a segment lies at {address:#010x} to {end:#010x}, outside of the STM32F446's flash ({:#010x} to {:#010x})",
+        FLASH.start, FLASH.end
+    )]
+    OutsideFlash {
+        /// Where it begins.
+        address: u32,
+        /// Where it ends.
+        end: u64,
+    },
+    /// A program for another chip of the family.
+    #[error("its vector table has {got} interrupts, the STM32F446 has {INTERRUPTS}: a program for another chip")]
+    Interrupts {
+        /// How many.
+        got: usize,
+    },
+    /// No vector table at the start of flash.
+    #[error("no program starts at {:#010x}: stack {stack:#010x}, first instruction {entry:#010x}", FLASH.start)]
+    Vectors {
+        /// The stack's end.
+        stack: u32,
+        /// The reset vector.
+        entry: u32,
+    },
+}
+
+impl From<object::Error> for ElfError {
+    fn from(what: object::Error) -> Self {
+        Self::NotElf { what }
+    }
+}
+
+/// What is flashed: the bytes from the start of flash to the end of the program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    /// The bytes; gaps read as erased flash.
+    pub flash: Vec<u8>,
+}
+
+impl Image {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`ElfError`].
+    pub fn open(path: &Path) -> Result<Self, ElfError> {
+        let bytes = std::fs::read(path).map_err(|source| ElfError::Read { path: path.to_owned(), source })?;
+        Self::from_elf(&bytes)
+    }
+
+    /// Reads a program that is in memory.
+    ///
+    /// # Errors
+    /// [`ElfError`], but for [`ElfError::Read`].
+    pub fn from_elf(bytes: &[u8]) -> Result<Self, ElfError> {
+        let header = FileHeader32::<Endianness>::parse(bytes)?;
+        let endian = header.endian()?;
+        expect("the byte order", u64::from(endian == Endianness::Big), 0)?;
+        expect("the processor", header.e_machine(endian).into(), EM_ARM.into())?;
+        expect("the file's type", header.e_type(endian).into(), ET_EXEC.into())?;
+
+        let mut flash = Vec::new();
+        for segment in header.program_headers(endian, bytes)? {
+            let address = segment.p_paddr(endian);
+            let data = segment.data(endian, bytes).map_err(|()| ElfError::Truncated { address })?;
+            if segment.p_type(endian) != PT_LOAD || data.is_empty() {
+                continue;
+            }
+            let end = u64::from(address) + data.len() as u64;
+            if address < FLASH.start || end > FLASH.end.into() {
+                return Err(ElfError::OutsideFlash { address, end });
+            }
+            let at = (address - FLASH.start) as usize;
+            if flash.len() < at + data.len() {
+                flash.resize(at + data.len(), 0xff);
+            }
+            if let Some(place) = flash.get_mut(at..at + data.len()) {
+                place.copy_from_slice(data);
+            }
+        }
+        check_interrupts(header, endian, bytes)?;
+        let word = |at: usize| {
+            flash.get(at..at + 4).and_then(|word| word.try_into().ok()).map_or(u32::MAX, u32::from_le_bytes)
+        };
+        let (stack, entry) = (word(0), word(4));
+        let runs = entry & 1 == 1 && FLASH.contains(&entry) && stack > RAM.start && stack <= RAM.end;
+        if runs { Ok(Self { flash }) } else { Err(ElfError::Vectors { stack, entry }) }
+    }
+}
+
+/// Chips of one family differ in what interrupts they have, and all programs say how many they expect.
+fn check_interrupts(
+    header: &FileHeader32<Endianness>,
+    endian: Endianness,
+    bytes: &[u8],
+) -> Result<(), ElfError> {
+    let sections = header.sections(endian, bytes)?;
+    let symbols = sections.symbols(endian, bytes, object::elf::SHT_SYMTAB)?;
+    for symbol in symbols.iter() {
+        if symbols.symbol_name(endian, symbol)? == INTERRUPT_TABLE {
+            let got = symbol.st_size(endian) as usize / 4;
+            return if got == INTERRUPTS { Ok(()) } else { Err(ElfError::Interrupts { got }) };
+        }
+    }
+    Ok(())
+}
+
+fn expect(what: &'static str, got: u64, expected: u64) -> Result<(), ElfError> {
+    if got == expected { Ok(()) } else { Err(ElfError::OtherKind { what, got, expected }) }
+}

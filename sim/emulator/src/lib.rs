@@ -1,0 +1,30 @@
+//! The board's own program, the ELF file that is flashed, on an emulated STM32F446, closed loop with the simulated plant.
+//!
+//! ```text
+//!   Image (elf) --> Chip: core (rsemu), Peripherals --+
+//!                                                     +-- EmulatedBoard -- bytes of the line
+//!                                          Plant -----+
+//! ```
+//!
+//! What is emulated and what isn't stands in `docs/src/emulator.md`.
+
+mod adc;
+mod board;
+mod bus;
+mod chip;
+mod elf;
+mod exti;
+mod gpio;
+mod peripherals;
+mod pins;
+mod plain;
+mod rcc;
+mod time;
+mod timers;
+mod usart;
+mod watchdog;
+
+pub use board::{EmulatedBoard, EmulatorError};
+pub use chip::ChipError;
+pub use elf::{ElfError, Image};
+pub use pins::Drive;
