@@ -96,6 +96,12 @@ impl EmulatedBoard {
         self.chip.instructions()
     }
 
+    /// From now on every instruction goes through the core's full model. Several times slower, and the same in every
+    /// cycle, which is what it is for.
+    pub fn do_not_hurry(&mut self) {
+        self.chip.do_not_hurry();
+    }
+
     /// Presses or releases the emergency stop button.
     pub fn press_stop(&mut self, pressed: bool) {
         self.chip.press_stop(pressed);

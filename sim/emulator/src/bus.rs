@@ -52,6 +52,11 @@ impl Shared {
         self.look.load(Ordering::Relaxed) && self.look.swap(false, Ordering::Relaxed)
     }
 
+    /// Something has to be looked at, without settling it.
+    pub(crate) fn wants_look(&self) -> bool {
+        self.look.load(Ordering::Relaxed)
+    }
+
     /// Something has to be looked at.
     pub(crate) fn look(&self) {
         self.look.store(true, Ordering::Relaxed);
@@ -67,22 +72,22 @@ impl Shared {
             now = over.min(self.horizon.load(Ordering::Relaxed)).max(now);
             self.set_now(now);
         }
-        let (value, after) = peripherals.read(address, now)?;
-        if after == After::Look {
+        let answer = peripherals.read(address, now);
+        if answer.is_none_or(|(_, after)| after == After::Look) {
             self.look();
         }
-        Some(value)
+        answer.map(|(value, _)| value)
     }
 
     /// Writes a register.
     pub(crate) fn write(&self, address: u32, value: u32) -> Option<()> {
-        let before = self.peripherals().drive;
         let mut peripherals = self.peripherals();
-        let after = peripherals.write(address, value, self.now())?;
-        if after == After::Look || peripherals.drive != before {
+        let before = peripherals.drive;
+        let after = peripherals.write(address, value, self.now());
+        if after != Some(After::Go) || peripherals.drive != before {
             self.look();
         }
-        Some(())
+        after.map(drop)
     }
 }
 

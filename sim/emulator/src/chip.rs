@@ -12,9 +12,11 @@ use crate::bus::{Shared, Window};
 use crate::elf::Image;
 use crate::peripherals::{Peripherals, Unmodelled};
 use crate::pins::Drive;
+use crate::quick::{End, Quick};
 use crate::rcc::Reset;
 use rsemu::core::device::{Device, ResetKind};
 use rsemu::core::space::{AddressSpace, RamStore, Region, RomStore, RomWrite};
+use rsemu::cpu::arm::v7m::sys::Exception;
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 use std::ops::Range;
 use std::sync::Arc;
@@ -32,8 +34,12 @@ const UNIQUE_ID: u32 = 0x1fff_7a10;
 const NUMBER: &[u8; 12] = b"zygote-emul1";
 /// The STM32F4 has 16 levels of priority.
 const PRIORITY_BITS: u8 = 4;
-/// Instructions between two looks at whether the program asked for a reset.
-const STRIDE: u32 = 64;
+/// Interrupts are numbered from here among the exceptions.
+const FIRST_INTERRUPT: u16 = 16;
+/// Bits of `CONTROL` that ask for an unprivileged thread or a stack of its own.
+const OTHER_THREAD: u32 = 3;
+/// Traps of `CCR` that change what ordinary instructions do: unaligned access, division by zero.
+const TRAPS: u32 = 1 << 3 | 1 << 4;
 
 /// Why the emulation can't go on.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -66,8 +72,13 @@ pub enum ChipError {
 pub(crate) struct Chip {
     core: ArmV7m,
     shared: Arc<Shared>,
+    quick: Quick,
+    /// Ordinary instructions take the fast way.
+    hurried: bool,
+    /// Interrupts whose lines are raised.
+    raised: Vec<Exception>,
     instructions: u64,
-    /// What the latest resets were for.
+    /// What the resets were for, and when they were, in picoseconds.
     resets: Vec<(u64, Reset)>,
     hung: bool,
 }
@@ -79,7 +90,8 @@ impl Chip {
         let space = AddressSpace::new("stm32f446", 32);
         let mut flash = image.flash.clone();
         flash.resize((FLASH.end - FLASH.start) as usize, 0xff);
-        let ram = RamStore::new((RAM.end - RAM.start).into());
+        let ram = Arc::new(RamStore::new((RAM.end - RAM.start).into()));
+        let quick = Quick::new(flash.clone(), Arc::clone(&ram));
         let mut chance = Chance::new(seed);
         for at in (0..ram.len()).step_by(8) {
             ram.write_at(at, &chance.bits().to_le_bytes()).map_err(map_error)?;
@@ -94,7 +106,7 @@ impl Chip {
         };
         map(Region::rom("flash", Arc::new(RomStore::new(flash)), RomWrite::Fault), FLASH.start)?;
         map(Region::rom("system", Arc::new(RomStore::new(system)), RomWrite::Fault), SYSTEM.start)?;
-        map(Region::ram("ram", Arc::new(ram)), RAM.start)?;
+        map(Region::ram("ram", ram), RAM.start)?;
         for (name, range) in [("peripherals", PERIPHERALS), ("debug", DEBUG)] {
             let window = Window { base: range.start, shared: Arc::clone(&shared) };
             map(Region::io(name, range.len() as u64, Arc::new(window)), range.start)?;
@@ -102,7 +114,16 @@ impl Chip {
         let config = Config::CORTEX_M4F.with_priority_bits(PRIORITY_BITS).with_reset_vtor(FLASH.start);
         let core = ArmV7m::new(config);
         core.attach_space(Arc::new(space));
-        Ok(Self { core, shared, instructions: 0, resets: vec![(0, Reset::Power)], hung: false })
+        Ok(Self {
+            core,
+            shared,
+            quick,
+            hurried: true,
+            raised: Vec::new(),
+            instructions: 0,
+            resets: vec![(0, Reset::Power)],
+            hung: false,
+        })
     }
 
     /// Virtual time in picoseconds.
@@ -146,6 +167,11 @@ impl Chip {
         self.shared.peripherals().usart.take(out);
     }
 
+    /// Leaves the fast way, to compare it with the core.
+    pub(crate) fn do_not_hurry(&mut self) {
+        self.hurried = false;
+    }
+
     /// Stops the core between two instructions, as if its clock were gone; peripherals go on. A reset ends it.
     pub(crate) fn hang(&mut self) {
         self.hung = true;
@@ -182,8 +208,12 @@ impl Chip {
         }
         self.shared.take_look();
         let mut peripherals = self.shared.peripherals();
+        self.raised.clear();
         for (number, raised) in peripherals.interrupts(now) {
             self.core.set_irq(number, raised);
+            if raised {
+                self.raised.push(Exception(FIRST_INTERRUPT + number));
+            }
         }
         let until = peripherals.clock.cycles(until_ps);
         let next = peripherals.next_event().map_or(until, |next| next.min(until));
@@ -193,13 +223,27 @@ impl Chip {
 
     /// Instructions until `horizon`, or until something has to be looked at.
     fn execute(&mut self, horizon: u64) -> Result<(), ChipError> {
-        let mut stride = 0;
         while self.shared.now() < horizon {
             if self.hung {
                 self.shared.set_now(horizon);
                 return Ok(());
             }
+            if self.hurried
+                && let Some(masked) = self.is_ordinary()
+            {
+                let mut regs = self.core.regs();
+                let end =
+                    self.quick.run(&mut regs, &self.shared, horizon, masked, &mut self.instructions);
+                self.core.set_regs(regs);
+                if end != End::Core {
+                    if self.shared.take_look() {
+                        return self.refused();
+                    }
+                    continue;
+                }
+            }
             let cycles = self.core.step();
+            self.quick.core_stepped();
             self.instructions += 1;
             self.shared.set_now(self.shared.now() + cycles);
             // A wait is an instruction of one cycle.
@@ -207,20 +251,39 @@ impl Chip {
                 self.shared.set_now(self.shared.now().max(horizon));
                 return self.refused();
             }
+            if self.core.reset_requested() {
+                self.reset(Reset::Software);
+                return Ok(());
+            }
             if self.shared.take_look() {
                 return self.refused();
             }
-            stride += 1;
-            if stride == STRIDE {
-                stride = 0;
-                self.refused()?;
-                if self.core.reset_requested() {
-                    self.reset(Reset::Software);
-                    return Ok(());
-                }
-            }
         }
         Ok(())
+    }
+
+    /// The core is in a state in which ordinary instructions are just that, and no interrupt is due; says whether one
+    /// waits to be unmasked.
+    fn is_ordinary(&self) -> Option<bool> {
+        let priority = self.core.execution_priority();
+        let waits = self.core.with_sys(|system| {
+            let counts = system.cyccnt_enabled() || system.syst_csr & 1 == 1;
+            if counts || system.mpu_ctrl & 1 == 1 || system.ccr & TRAPS != 0 {
+                return None;
+            }
+            let raised = self.raised.iter().filter(|line| system.is_enabled(**line) && !system.is_active(**line));
+            let raised = raised.map(|line| system.priority_of(*line));
+            let pending = system.highest_pending().map(|(_, priority)| priority);
+            Some(raised.chain(pending).min())
+        })?;
+        let regs = self.core.regs();
+        let due = waits.is_some_and(|waiting| waiting < priority);
+        let ordinary = !due
+            && regs.control & OTHER_THREAD == 0
+            && !self.core.is_asleep()
+            && !self.core.is_locked_up()
+            && !self.core.reset_pending();
+        ordinary.then_some(waits.is_some() && regs.primask)
     }
 
     fn refused(&self) -> Result<(), ChipError> {

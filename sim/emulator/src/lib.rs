@@ -18,6 +18,7 @@ mod gpio;
 mod peripherals;
 mod pins;
 mod plain;
+mod quick;
 mod rcc;
 mod time;
 mod timers;
