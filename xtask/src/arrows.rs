@@ -13,6 +13,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-protocol", &[]),
     ("zygote-core", &["zygote-protocol"]),
     ("zygote-sim", &["zygote-core", "zygote-protocol"]),
+    ("zygote-emulator", &["zygote-core", "zygote-protocol", "zygote-sim"]),
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
     ("zygote-controller", &["zygote-protocol", "zygote-deployment"]),
@@ -25,6 +26,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-core",
             "zygote-protocol",
             "zygote-sim",
+            "zygote-emulator",
         ],
     ),
     (
@@ -36,6 +38,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-protocol",
             "zygote-rehearsal",
             "zygote-sim",
+            "zygote-emulator",
         ],
     ),
     ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol"]),

@@ -13,7 +13,8 @@ use crate::pins::{Drive, HEATERS, SPRINGS};
 use crate::rcc::Reset;
 use core::time::Duration;
 use zygote_core::ADC_FULL_SCALE;
-use zygote_protocol::{Micros, ResetCause};
+use zygote_protocol::{Micros, RETAINED_WORDS, ResetCause, Retained, Snapshot};
+use zygote_sim::{Device, Stuck};
 use zygote_sim::plant::{Config as PlantConfig, Drive as PlantDrive, Plant, PlantError, Readings};
 
 
@@ -52,6 +53,10 @@ pub struct EmulatedBoard {
     plant: Plant,
     /// Time up to which the plant has been worked out, in picoseconds.
     plant_ps: u64,
+    retained: Option<u32>,
+    snapshot: Option<Snapshot>,
+    /// What was kept before the latest reset, and the number of resets by then.
+    stale: (Option<Snapshot>, usize),
 }
 
 impl EmulatedBoard {
@@ -66,7 +71,14 @@ impl EmulatedBoard {
         most("heaters", plant.heaters.len(), HEATERS)?;
         most("springs", plant.springs.len(), SPRINGS)?;
         most("servos", plant.servos.len(), Drive::OFF.servos.len())?;
-        let mut board = Self { chip: Chip::new(image, seed)?, plant: Plant::new(plant)?, plant_ps: 0 };
+        let mut board = Self {
+            chip: Chip::new(image, seed)?,
+            plant: Plant::new(plant)?,
+            plant_ps: 0,
+            retained: image.retained,
+            snapshot: None,
+            stale: (None, 1),
+        };
         board.sense();
         Ok(board)
     }
@@ -125,9 +137,15 @@ impl EmulatedBoard {
         self.chip.reset(Reset::Pin);
     }
 
-    /// Stops the core for good: no instruction, no interrupt, until a reset.
-    pub fn hang(&mut self) {
-        self.chip.hang();
+    /// Stops the program from now on, until a reset.
+    pub fn hang(&mut self, stuck: Stuck) {
+        self.chip.hang(stuck);
+    }
+
+    /// What the program says that it is doing: the snapshot that it keeps for after a reset, from its RAM. Nothing before it
+    /// has kept one.
+    pub fn snapshot(&self) -> Option<&Snapshot> {
+        self.snapshot.as_ref()
     }
 
     /// Takes bytes from the host, now.
@@ -162,7 +180,22 @@ impl EmulatedBoard {
             },
         )?;
         self.sense();
+        self.recall();
         Ok(())
+    }
+
+    /// A snapshot that is just being written is not whole: the one before it stands until it is. After a reset it is the
+    /// one from before for a moment.
+    fn recall(&mut self) {
+        let resets = self.chip.resets().len();
+        if self.stale.1 != resets {
+            self.stale = (self.snapshot.take(), resets);
+        }
+        let words = self.retained.and_then(|address| self.chip.words::<RETAINED_WORDS>(address));
+        let kept = words.and_then(|words| Retained::from_words(&words).recall());
+        if kept.is_some() && kept != self.stale.0 {
+            self.snapshot = kept;
+        }
     }
 
     fn sense(&mut self) {
@@ -182,4 +215,24 @@ impl EmulatedBoard {
 fn counts(value: u32, full_scale: u32) -> u16 {
     let counts = (u64::from(value) * u64::from(ADC_FULL_SCALE) + u64::from(full_scale) / 2) / u64::from(full_scale);
     u16::try_from(counts).map_or(ADC_FULL_SCALE, |counts| counts.min(ADC_FULL_SCALE))
+}
+
+impl Device for EmulatedBoard {
+    type Error = EmulatorError;
+
+    fn now(&self) -> Micros {
+        Self::now(self)
+    }
+
+    fn advance(&mut self, until: Micros) -> Result<(), EmulatorError> {
+        Self::advance(self, until)
+    }
+
+    fn receive(&mut self, bytes: &[u8]) {
+        Self::receive(self, bytes);
+    }
+
+    fn transmit(&mut self, out: &mut Vec<u8>) {
+        Self::transmit(self, out);
+    }
 }

@@ -1,9 +1,10 @@
 //! The way from the core to the peripherals. The core only knows addresses; what an access leaves to do afterwards is
 //! left in [`Shared`] for [`crate::chip`].
 
+use crate::chip::FLASH;
 use crate::peripherals::{After, Peripherals};
 use rsemu::core::BusError;
-use rsemu::core::space::{MemAttrs, MemOps, MemResult};
+use rsemu::core::space::{MemAttrs, MemOps, MemResult, RamStore};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -66,6 +67,7 @@ impl Shared {
     pub(crate) fn read(&self, address: u32) -> Option<u32> {
         let mut peripherals = self.peripherals();
         let mut now = self.now();
+        let before = peripherals.drive;
         // A program that asks again and again whether a conversion is over gets its answer when it is, or when something
         // else happens: the same course of events, without a thousand rounds of the same loop.
         if let Some(over) = peripherals.awaited(address) {
@@ -73,7 +75,7 @@ impl Shared {
             self.set_now(now);
         }
         let answer = peripherals.read(address, now);
-        if answer.is_none_or(|(_, after)| after == After::Look) {
+        if answer.is_none_or(|(_, after)| after == After::Look) || peripherals.drive != before {
             self.look();
         }
         answer.map(|(value, _)| value)
@@ -84,10 +86,49 @@ impl Shared {
         let mut peripherals = self.peripherals();
         let before = peripherals.drive;
         let after = peripherals.write(address, value, self.now());
+        self.stand_still(&mut peripherals);
         if after != Some(After::Go) || peripherals.drive != before {
             self.look();
         }
         after.map(drop)
+    }
+
+    /// Writes to the flash's array.
+    pub(crate) fn program(&self, address: u32, bytes: u32, value: u32) {
+        let mut peripherals = self.peripherals();
+        peripherals.program(address, bytes, value);
+        self.stand_still(&mut peripherals);
+        self.look();
+    }
+
+    fn stand_still(&self, peripherals: &mut Peripherals) {
+        let now = self.now();
+        self.set_now(now + peripherals.take_stall(now));
+    }
+}
+
+/// The flash as the core sees it: read like memory, written through its controller.
+#[derive(Debug)]
+pub(crate) struct FlashWindow {
+    pub(crate) array: Arc<RamStore>,
+    pub(crate) shared: Arc<Shared>,
+}
+
+impl MemOps for FlashWindow {
+    fn read(&self, offset: u64, bytes: &mut [u8], _attributes: MemAttrs) -> MemResult {
+        self.array.read_at(offset, bytes)
+    }
+
+    fn write(&self, offset: u64, bytes: &[u8], attributes: MemAttrs) -> MemResult {
+        if attributes.debug {
+            return Err(BusError::BadAccess);
+        }
+        let mut word = [0; 4];
+        word.get_mut(..bytes.len()).ok_or(BusError::BadAccess)?.copy_from_slice(bytes);
+        let address = FLASH.start + u32::try_from(offset).map_err(|_| BusError::BadAccess)?;
+        let width = u32::try_from(bytes.len()).map_err(|_| BusError::BadAccess)?;
+        self.shared.program(address, width, u32::from_le_bytes(word));
+        Ok(())
     }
 }
 

@@ -8,8 +8,9 @@
 //! ```
 
 use crate::adc::Analog;
-use crate::bus::{Shared, Window};
+use crate::bus::{FlashWindow, Shared, Window};
 use crate::elf::Image;
+use crate::flash::Flash;
 use crate::peripherals::{Peripherals, Unmodelled};
 use crate::pins::Drive;
 use crate::quick::{End, Quick};
@@ -20,7 +21,7 @@ use rsemu::cpu::arm::v7m::sys::Exception;
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 use std::ops::Range;
 use std::sync::Arc;
-use zygote_sim::Chance;
+use zygote_sim::{Chance, Stuck};
 
 /// 512 KiB of flash.
 pub(crate) const FLASH: Range<u32> = 0x0800_0000..0x0808_0000;
@@ -80,18 +81,21 @@ pub(crate) struct Chip {
     instructions: u64,
     /// What the resets were for, and when they were, in picoseconds.
     resets: Vec<(u64, Reset)>,
-    hung: bool,
+    hung: Option<Stuck>,
+    ram: Arc<RamStore>,
 }
 
 impl Chip {
     /// Just switched on; what its RAM holds then is a matter of chance.
     pub(crate) fn new(image: &Image, seed: u64) -> Result<Self, ChipError> {
-        let shared = Arc::new(Shared::new(Peripherals::new()));
+        let mut program = image.flash.clone();
+        program.resize((FLASH.end - FLASH.start) as usize, 0xff);
+        let flash = Arc::new(RamStore::new(program.len() as u64));
+        flash.write_at(0, &program).map_err(map_error)?;
+        let shared = Arc::new(Shared::new(Peripherals::new(Flash::new(Arc::clone(&flash)))));
         let space = AddressSpace::new("stm32f446", 32);
-        let mut flash = image.flash.clone();
-        flash.resize((FLASH.end - FLASH.start) as usize, 0xff);
         let ram = Arc::new(RamStore::new((RAM.end - RAM.start).into()));
-        let quick = Quick::new(flash.clone(), Arc::clone(&ram));
+        let quick = Quick::new(Arc::clone(&flash), Arc::clone(&ram));
         let mut chance = Chance::new(seed);
         for at in (0..ram.len()).step_by(8) {
             ram.write_at(at, &chance.bits().to_le_bytes()).map_err(map_error)?;
@@ -104,9 +108,10 @@ impl Chip {
         let map = |region: Region, base: u32| {
             space.topology().map(region, base.into()).map(drop).map_err(map_error)
         };
-        map(Region::rom("flash", Arc::new(RomStore::new(flash)), RomWrite::Fault), FLASH.start)?;
+        let window = FlashWindow { array: flash, shared: Arc::clone(&shared) };
+        map(Region::io("flash", FLASH.len() as u64, Arc::new(window)), FLASH.start)?;
         map(Region::rom("system", Arc::new(RomStore::new(system)), RomWrite::Fault), SYSTEM.start)?;
-        map(Region::ram("ram", ram), RAM.start)?;
+        map(Region::ram("ram", Arc::clone(&ram)), RAM.start)?;
         for (name, range) in [("peripherals", PERIPHERALS), ("debug", DEBUG)] {
             let window = Window { base: range.start, shared: Arc::clone(&shared) };
             map(Region::io(name, range.len() as u64, Arc::new(window)), range.start)?;
@@ -122,7 +127,8 @@ impl Chip {
             raised: Vec::new(),
             instructions: 0,
             resets: vec![(0, Reset::Power)],
-            hung: false,
+            hung: None,
+            ram,
         })
     }
 
@@ -172,9 +178,20 @@ impl Chip {
         self.hurried = false;
     }
 
-    /// Stops the core between two instructions, as if its clock were gone; peripherals go on. A reset ends it.
-    pub(crate) fn hang(&mut self) {
-        self.hung = true;
+    /// Stops the core between two instructions, or only what is no interrupt; peripherals go on. A reset ends it.
+    pub(crate) fn hang(&mut self, stuck: Stuck) {
+        self.hung = Some(stuck);
+    }
+
+    /// Words of RAM, as they are between two instructions.
+    pub(crate) fn words<const N: usize>(&self, address: u32) -> Option<[u32; N]> {
+        let mut words = [0; N];
+        for (at, word) in (u64::from(address.checked_sub(RAM.start)?)..).step_by(4).zip(&mut words) {
+            let mut bytes = [0; 4];
+            self.ram.read_at(at, &mut bytes).ok()?;
+            *word = u32::from_le_bytes(bytes);
+        }
+        Some(words)
     }
 
     /// Resets the chip.
@@ -182,7 +199,7 @@ impl Chip {
         let now = self.shared.now();
         self.shared.peripherals().reset(reset, now);
         self.core.reset(ResetKind::Cold);
-        self.hung = false;
+        self.hung = None;
         self.resets.push((self.ps(), reset));
         self.shared.look();
     }
@@ -208,6 +225,9 @@ impl Chip {
         }
         self.shared.take_look();
         let mut peripherals = self.shared.peripherals();
+        if peripherals.flash.take_changed() {
+            self.quick.forget();
+        }
         self.raised.clear();
         for (number, raised) in peripherals.interrupts(now) {
             self.core.set_irq(number, raised);
@@ -224,12 +244,19 @@ impl Chip {
     /// Instructions until `horizon`, or until something has to be looked at.
     fn execute(&mut self, horizon: u64) -> Result<(), ChipError> {
         while self.shared.now() < horizon {
-            if self.hung {
+            let ordinary = self.is_ordinary();
+            let stuck = match self.hung {
+                None => false,
+                Some(Stuck::Everything) => true,
+                // Until an interrupt is due, or one is handled.
+                Some(Stuck::Tasks) => ordinary.is_some() && self.core.current_exception() == Exception::THREAD,
+            };
+            if stuck {
                 self.shared.set_now(horizon);
                 return Ok(());
             }
             if self.hurried
-                && let Some(masked) = self.is_ordinary()
+                && let Some(masked) = ordinary
             {
                 let mut regs = self.core.regs();
                 let end =

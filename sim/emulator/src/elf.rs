@@ -6,11 +6,14 @@ use object::read::elf::{FileHeader, ProgramHeader, Sym};
 use object::Endianness;
 use std::io;
 use std::path::{Path, PathBuf};
+use zygote_protocol::RETAINED_WORDS;
 
 /// Interrupts of the STM32F446, so entries of its vector table after the first sixteen.
 const INTERRUPTS: usize = 97;
 /// The vector table as `cortex-m-rt` calls it.
 const INTERRUPT_TABLE: &[u8] = b"__INTERRUPTS";
+/// The end of the mangled name of the board's `reset::RETAINED`.
+const RETAINED: &[u8] = b"5reset8RETAINED";
 
 /// Why a file can't be run.
 #[derive(Debug, thiserror::Error)]
@@ -84,6 +87,8 @@ impl From<object::Error> for ElfError {
 pub struct Image {
     /// The bytes; gaps read as erased flash.
     pub flash: Vec<u8>,
+    /// Where in RAM the program keeps what is to outlive a reset, if it says so.
+    pub retained: Option<u32>,
 }
 
 impl Image {
@@ -126,31 +131,36 @@ impl Image {
                 place.copy_from_slice(data);
             }
         }
-        check_interrupts(header, endian, bytes)?;
+        let retained = look_at_symbols(header, endian, bytes)?;
         let word = |at: usize| {
             flash.get(at..at + 4).and_then(|word| word.try_into().ok()).map_or(u32::MAX, u32::from_le_bytes)
         };
         let (stack, entry) = (word(0), word(4));
         let runs = entry & 1 == 1 && FLASH.contains(&entry) && stack > RAM.start && stack <= RAM.end;
-        if runs { Ok(Self { flash }) } else { Err(ElfError::Vectors { stack, entry }) }
+        if runs { Ok(Self { flash, retained }) } else { Err(ElfError::Vectors { stack, entry }) }
     }
 }
 
-/// Chips of one family differ in what interrupts they have, and all programs say how many they expect.
-fn check_interrupts(
+/// Chips of one family differ in what interrupts they have, and all programs say how many they expect. Where the retained
+/// snapshot lies is told by its name.
+fn look_at_symbols(
     header: &FileHeader32<Endianness>,
     endian: Endianness,
     bytes: &[u8],
-) -> Result<(), ElfError> {
+) -> Result<Option<u32>, ElfError> {
+    let mut retained = None;
     let sections = header.sections(endian, bytes)?;
     let symbols = sections.symbols(endian, bytes, object::elf::SHT_SYMTAB)?;
     for symbol in symbols.iter() {
-        if symbols.symbol_name(endian, symbol)? == INTERRUPT_TABLE {
-            let got = symbol.st_size(endian) as usize / 4;
-            return if got == INTERRUPTS { Ok(()) } else { Err(ElfError::Interrupts { got }) };
+        let (name, words) = (symbols.symbol_name(endian, symbol)?, symbol.st_size(endian) as usize / 4);
+        if name == INTERRUPT_TABLE && words != INTERRUPTS {
+            return Err(ElfError::Interrupts { got: words });
+        }
+        if name.ends_with(RETAINED) && words == RETAINED_WORDS {
+            retained = Some(symbol.st_value(endian));
         }
     }
-    Ok(())
+    Ok(retained)
 }
 
 fn expect(what: &'static str, got: u64, expected: u64) -> Result<(), ElfError> {

@@ -5,7 +5,10 @@
 
 use crate::adc::{Adc, Analog};
 use crate::exti::Exti;
+use crate::flash::Flash;
 use crate::gpio::Gpio;
+use crate::i2c::I2c;
+use crate::pca9685::Pca9685;
 use crate::pins::{ACTUATORS, Drive, PwmTimers, SELECT, STOP, drive};
 use crate::plain::Plain;
 use crate::rcc::{Bus, Rcc, Reset};
@@ -59,6 +62,7 @@ pub(crate) struct Peripherals {
     pub(crate) usart: Usart,
     pub(crate) drive: Drive,
     pub(crate) refused: Option<Unmodelled>,
+    pub(crate) flash: Flash,
     rcc: Rcc,
     ports: [Gpio; 3],
     timers: [Timer; 8],
@@ -66,10 +70,12 @@ pub(crate) struct Peripherals {
     exti: Exti,
     plain: Plain,
     watchdog: Watchdog,
+    i2c: I2c,
+    servos: Pca9685,
 }
 
 impl Peripherals {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(flash: Flash) -> Self {
         let rcc = Rcc::new(Reset::Power);
         let mut ports = ['A', 'B', 'C'].map(Gpio::new);
         // The board pulls the stop button up.
@@ -80,6 +86,7 @@ impl Peripherals {
             usart: Usart::new(),
             drive: Drive::OFF,
             refused: None,
+            flash,
             rcc,
             ports,
             timers: TIMERS.map(|TimerPlace(.., kind)| Timer::new(kind)),
@@ -87,6 +94,8 @@ impl Peripherals {
             exti: Exti::default(),
             plain: Plain::default(),
             watchdog: Watchdog::new(),
+            i2c: I2c::new(),
+            servos: Pca9685::new(),
         }
     }
 
@@ -100,6 +109,8 @@ impl Peripherals {
         self.timers.iter_mut().for_each(Timer::reset);
         self.adc.reset();
         self.usart.reset();
+        self.i2c.reset();
+        self.flash.reset();
         self.exti = Exti::default();
         self.plain = Plain::default();
         self.watchdog = Watchdog::new();
@@ -129,6 +140,11 @@ impl Peripherals {
             0x4000_4400..0x4000_4800 if self.rcc.enabled(Bus::Apb1, 17) => {
                 Some((self.usart.read(offset, now), After::Look))
             }
+            0x4000_5800..0x4000_5c00 if self.rcc.enabled(Bus::Apb1, 22) => {
+                let value = self.i2c.read(offset, now, &mut self.servos);
+                self.look_at_pins();
+                go(value)
+            }
             0x4001_2000..0x4001_2400 if self.rcc.enabled(Bus::Apb2, 8) => go(self.adc.read(offset, now)),
             0x4001_3800..0x4001_3c00 => go(self.exti.read_system(offset)),
             0x4001_3c00..0x4001_4000 => go(self.exti.read(offset)),
@@ -138,8 +154,9 @@ impl Peripherals {
                 go(if on { self.ports[port].read(offset) } else { 0 })
             }
             0x4002_3800..0x4002_3c00 => go(self.rcc.read(offset)),
+            0x4002_3c00..0x4002_4000 => go(self.flash.read(offset)),
             // Without a clock they read as nothing.
-            0x4000_4400..0x4000_4800 | 0x4001_2000..0x4001_2400 => go(0),
+            0x4000_4400..0x4000_4800 | 0x4000_5800..0x4000_5c00 | 0x4001_2000..0x4001_2400 => go(0),
             _ if Plain::holds(word) => go(self.plain.read(word)),
             _ => {
                 self.refuse(address, false);
@@ -167,6 +184,13 @@ impl Peripherals {
                     self.usart.write(offset, value, now);
                 }
             }
+            0x4000_5800..0x4000_5c00 => {
+                if self.rcc.enabled(Bus::Apb1, 22) {
+                    self.i2c.write(offset, value, now, &mut self.servos);
+                    self.look_at_pins();
+                }
+                return Some(After::Go);
+            }
             0x4001_2000..0x4001_2400 => {
                 if self.rcc.enabled(Bus::Apb2, 8) {
                     let (analog, port) = (&self.analog, &self.ports[2]);
@@ -188,6 +212,7 @@ impl Peripherals {
                 return Some(After::Go);
             }
             0x4002_3800..0x4002_3c00 => self.write_clocks(offset, value, now),
+            0x4002_3c00..0x4002_4000 => self.flash.write(offset, value),
             _ if Plain::holds(word) => self.plain.write(word, value),
             _ => {
                 self.refuse(address, true);
@@ -220,6 +245,19 @@ impl Peripherals {
         timers.chain(self.usart.next_event()).chain(self.watchdog_due()).min()
     }
 
+    /// Writes to the flash's array.
+    pub(crate) fn program(&mut self, address: u32, bytes: u32, value: u32) {
+        self.flash.program(address, bytes, value);
+    }
+
+    /// Cycles that the core has to stand still.
+    pub(crate) fn take_stall(&mut self, now: u64) -> u64 {
+        match self.flash.take_stall_us() {
+            0 => 0,
+            us => self.clock.cycles(self.clock.ps(now) + us * 1_000_000) - now,
+        }
+    }
+
     /// When the watchdog resets the chip.
     pub(crate) fn watchdog_due(&self) -> Option<u64> {
         self.watchdog.due().map(|due| self.clock.cycles(due))
@@ -249,9 +287,16 @@ impl Peripherals {
                 }
             }
             match bus {
-                Bus::Apb1 if on(17) => self.usart.reset(),
+                Bus::Apb1 => {
+                    if on(17) {
+                        self.usart.reset();
+                    }
+                    if on(22) {
+                        self.i2c.reset();
+                    }
+                }
                 Bus::Apb2 if on(8) => self.adc.reset(),
-                Bus::Ahb1 | Bus::Apb1 | Bus::Apb2 => {}
+                Bus::Ahb1 | Bus::Apb2 => {}
             }
             self.look_at_pins();
         }
@@ -264,12 +309,14 @@ impl Peripherals {
             timer.set_divisor(self.rcc.timer_divisor(*bus), now);
         }
         self.usart.set_divisor(self.rcc.divisor(Bus::Apb1));
+        self.i2c.set_divisor(self.rcc.divisor(Bus::Apb1));
         self.adc.set_divisor(self.rcc.divisor(Bus::Apb2));
     }
 
     fn look_at_pins(&mut self) {
         let [tim1, tim3, tim4, tim8, ..] = &self.timers;
-        self.drive = drive(&self.ports, &PwmTimers { tim1, tim3, tim4, tim8 }, [None; 16]);
+        let timers = PwmTimers { tim1, tim3, tim4, tim8 };
+        self.drive = drive(&self.ports, &timers, &self.servos);
     }
 }
 

@@ -2,6 +2,7 @@
 //! `docs/src/board-nucleo-f446re.md`, read from the rig's side.
 
 use crate::gpio::{Gpio, Pin};
+use crate::pca9685::Pca9685;
 use crate::timers::Timer;
 use zygote_core::{Duty, PulseMicros};
 
@@ -19,7 +20,7 @@ pub struct Drive {
     pub springs: [bool; SPRINGS],
     /// Level of the main switch's pin.
     pub main_switch: bool,
-    /// Pulses for the servos.
+    /// Pulses that reach the servos.
     pub servos: [Option<PulseMicros>; 16],
 }
 
@@ -39,7 +40,7 @@ const B: usize = 1;
 const C: usize = 2;
 
 /// Pins of each port that move or heat something.
-pub(crate) const ACTUATORS: [u32; 3] = [0x0fc0, 0xf3c3, 0x07c0];
+pub(crate) const ACTUATORS: [u32; 3] = [0x0fc0, 0xf3c3, 0x0fc0];
 
 /// Select pins of the multiplexer, and the stop button, on port C.
 pub(crate) const SELECT: std::ops::Range<u8> = 0..4;
@@ -78,6 +79,8 @@ const HEATER_PINS: [Heater; HEATERS] = [
 ];
 const SPRING_PINS: [u8; SPRINGS] = [12, 13, 14, 15];
 const MAIN_SWITCH: u8 = 10;
+/// The servo driver's enable pin: pulses come out while it is driven low; a pull-up keeps it high.
+const SERVOS_ENABLE: u8 = 11;
 
 /// The timers that may drive a heater.
 pub(crate) struct PwmTimers<'a> {
@@ -88,7 +91,7 @@ pub(crate) struct PwmTimers<'a> {
 }
 
 /// What the pins do now. A pin that nobody drives is low: every actuator has a pull-down.
-pub(crate) fn drive(ports: &[Gpio; 3], timers: &PwmTimers<'_>, servos: [Option<PulseMicros>; 16]) -> Drive {
+pub(crate) fn drive(ports: &[Gpio; 3], timers: &PwmTimers<'_>, servos: &Pca9685) -> Drive {
     let heaters = HEATER_PINS.map(|Heater(port, pin, function, timer, channel)| {
         let timer = match timer {
             Tim1 => timers.tim1,
@@ -107,6 +110,6 @@ pub(crate) fn drive(ports: &[Gpio; 3], timers: &PwmTimers<'_>, servos: [Option<P
         heaters,
         springs: SPRING_PINS.map(|pin| high(B, pin)),
         main_switch: high(C, MAIN_SWITCH),
-        servos,
+        servos: if ports[C].pin(SERVOS_ENABLE) == Pin::Level(false) { servos.pulses() } else { [None; 16] },
     }
 }

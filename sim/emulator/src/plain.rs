@@ -1,5 +1,5 @@
-//! Peripherals of which the program needs no more than that they keep what is written: voltage regulator, flash latency,
-//! DMA controllers that nobody starts, debugger. The regulator is ready at once.
+//! Peripherals of which the program needs no more than that they keep what is written: voltage regulator, DMA
+//! controllers that nobody starts, debugger. The regulator is ready at once.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,6 @@ impl Plain {
     /// An address that is one of theirs.
     pub(crate) fn holds(address: u32) -> bool {
         matches!(address, 0x4000_7000..0x4000_7400 // PWR
-            | 0x4002_3c00..0x4002_4000 // FLASH
             | 0x4002_6000..0x4002_6800 // DMA1, DMA2
             | 0xe004_2000..0xe004_2400) // DBGMCU
     }

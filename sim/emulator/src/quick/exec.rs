@@ -27,7 +27,7 @@ pub(super) struct Run<'a> {
     pub(super) primask: bool,
     pub(super) exception: u32,
     pub(super) exclusive: Option<u32>,
-    pub(super) flash: &'a [u8],
+    pub(super) flash: &'a RamStore,
     pub(super) ram: &'a RamStore,
     pub(super) shared: &'a Shared,
     pub(super) now: u64,

@@ -11,13 +11,12 @@ impl Run<'_> {
     /// Reads memory that has no side effects.
     #[inline]
     pub(super) fn peek(&self, address: u32, bytes: u32) -> Option<u32> {
-        if let Some(offset) = inside(address, bytes, RAM.start, RAM.end) {
-            #[expect(clippy::cast_possible_truncation, reason = "four bytes at most")]
-            return self.ram.read_value(offset.into(), width(bytes), Endian::Little).ok().map(|value| value as u32);
-        }
-        let at = inside(address, bytes, FLASH.start, FLASH.end)? as usize;
-        let bytes = self.flash.get(at..at + bytes as usize)?;
-        Some(bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte)))
+        let (memory, offset) = match inside(address, bytes, RAM.start, RAM.end) {
+            Some(offset) => (self.ram, offset),
+            None => (self.flash, inside(address, bytes, FLASH.start, FLASH.end)?),
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "four bytes at most")]
+        memory.read_value(offset.into(), width(bytes), Endian::Little).ok().map(|value| value as u32)
     }
 
     /// Reads a value; one access.
@@ -49,7 +48,9 @@ impl Run<'_> {
         }
         self.touch();
         let part = if bytes == 4 { value } else { value & ((1 << (8 * bytes)) - 1) };
-        self.shared.write(address, part << (8 * (address & 3)))
+        let done = self.shared.write(address, part << (8 * (address & 3)));
+        self.now = self.shared.now();
+        done
     }
 
     /// All of a block lies in RAM, or in flash to be read.

@@ -12,6 +12,7 @@ use crate::bus::Shared;
 use crate::chip::FLASH;
 use exec::Run;
 use rsemu::core::space::RamStore;
+use rsemu::core::value::{Endian, Width};
 use rsemu::cpu::arm::v7m::Regs;
 use rsemu::cpu::arm::v7m::isa::{Insn, decode, is_32bit};
 use std::sync::Arc;
@@ -37,9 +38,11 @@ struct Slot {
     length: u32,
 }
 
+const EMPTY: Slot = Slot { instruction: Insn::Undefined, length: 0 };
+
 /// The program as decoded so far, and the memories.
 pub(crate) struct Quick {
-    flash: Vec<u8>,
+    flash: Arc<RamStore>,
     ram: Arc<RamStore>,
     slots: Vec<Slot>,
     /// What the latest exclusive load marked, if the core hasn't stepped since.
@@ -47,9 +50,14 @@ pub(crate) struct Quick {
 }
 
 impl Quick {
-    pub(crate) fn new(flash: Vec<u8>, ram: Arc<RamStore>) -> Self {
-        let slots = vec![Slot { instruction: Insn::Undefined, length: 0 }; flash.len() / 2];
+    pub(crate) fn new(flash: Arc<RamStore>, ram: Arc<RamStore>) -> Self {
+        let slots = vec![EMPTY; FLASH.len() / 2];
         Self { flash, ram, slots, exclusive: None }
+    }
+
+    /// The flash is not as it was.
+    pub(crate) fn forget(&mut self) {
+        self.slots.fill(EMPTY);
     }
 
     /// The core has stepped by itself, perhaps into an interrupt or out of one.
@@ -122,9 +130,10 @@ impl Quick {
 }
 
 #[cold]
-fn decoded(flash: &[u8], at: usize) -> Slot {
+fn decoded(flash: &RamStore, at: usize) -> Slot {
     let half = |at: usize| {
-        flash.get(2 * at..2 * at + 2).and_then(|half| half.try_into().ok()).map_or(0, u16::from_le_bytes)
+        let value = flash.read_value(2 * at as u64, Width::U16, Endian::Little).unwrap_or(0);
+        u16::try_from(value).unwrap_or(0)
     };
     let first = half(at);
     let wide = is_32bit(first);
