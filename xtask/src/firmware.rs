@@ -43,6 +43,11 @@ pub(crate) fn run() -> Result<()> {
     measure(&toolchain, &firmware.join("core-figures"), "core-figures", CORE_BUDGET)
 }
 
+/// Where a program ends up.
+pub(crate) fn elf(name: &str) -> PathBuf {
+    tools::root().join("target/firmware").join(TARGET).join("release").join(format!("zygote-{name}"))
+}
+
 /// Builds what is in a folder, prints its sections, and holds it to its memory.
 fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::Budget) -> Result<()> {
     let target_dir = tools::root().join("target/firmware");
@@ -50,7 +55,7 @@ fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::B
     build.current_dir(folder).args(["build", "--release", "--locked", "--target", TARGET]);
     tools::run(build.arg("--target-dir").arg(&target_dir))?;
 
-    let elf = target_dir.join(TARGET).join("release").join(format!("zygote-{name}"));
+    let elf = elf(name);
     let bytes = fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
     let sections = sections::of(&bytes).with_context(|| format!("cannot read {}", elf.display()))?;
     println!("\n{name}\n{}", sections::table(&sections, budget));

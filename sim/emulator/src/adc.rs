@@ -56,6 +56,11 @@ impl Adc {
         self.converting.map(|(over, _)| over)
     }
 
+    /// The channel that is converted next.
+    pub(crate) fn channel(&self) -> u32 {
+        self.get(SQR3) & 0x1f
+    }
+
     pub(crate) fn read(&mut self, offset: u32, now: u64) -> u32 {
         self.sync(now);
         match offset {
@@ -76,7 +81,7 @@ impl Adc {
             CR2 => {
                 self.registers[(CR2 / 4) as usize] = value & !SWSTART;
                 if value & SWSTART != 0 && value & ADON != 0 && self.converting.is_none() {
-                    let channel = self.get(SQR3) & 0x1f;
+                    let channel = self.channel();
                     let clocks = (self.sampling(channel) + CONVERTING) * self.clock();
                     self.converting = Some((now + clocks, input(channel)));
                     self.registers[(SR / 4) as usize] |= STRT;

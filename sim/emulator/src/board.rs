@@ -10,8 +10,10 @@ use crate::adc::Analog;
 use crate::chip::{Chip, ChipError};
 use crate::elf::Image;
 use crate::pins::{Drive, HEATERS, SPRINGS};
+use crate::probe::Latency;
 use crate::rcc::Reset;
 use core::time::Duration;
+use std::collections::BTreeMap;
 use zygote_core::ADC_FULL_SCALE;
 use zygote_protocol::{Micros, RETAINED_WORDS, ResetCause, Retained, Snapshot};
 use zygote_sim::{Device, Stuck};
@@ -106,6 +108,17 @@ impl EmulatedBoard {
     /// Instructions that the program has executed.
     pub fn instructions(&self) -> u64 {
         self.chip.instructions()
+    }
+
+    /// How long interrupts have waited for their handlers, by their numbers in the reference manual.
+    pub fn latencies(&self) -> &BTreeMap<u16, Latency> {
+        self.chip.latencies()
+    }
+
+    /// When the program began to read its sensors, in picoseconds, each time since this was last asked; from the first time
+    /// on that it is.
+    pub fn take_rounds(&mut self) -> Vec<u64> {
+        self.chip.take_rounds()
     }
 
     /// From now on every instruction goes through the core's full model. Several times slower, and the same in every

@@ -13,12 +13,14 @@ use crate::elf::Image;
 use crate::flash::Flash;
 use crate::peripherals::{Peripherals, Unmodelled};
 use crate::pins::Drive;
+use crate::probe::{Latency, Probe};
 use crate::quick::{End, Quick};
 use crate::rcc::Reset;
 use rsemu::core::device::{Device, ResetKind};
 use rsemu::core::space::{AddressSpace, RamStore, Region, RomStore, RomWrite};
 use rsemu::cpu::arm::v7m::sys::Exception;
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 use zygote_sim::{Chance, Stuck};
@@ -79,6 +81,9 @@ pub(crate) struct Chip {
     /// Interrupts whose lines are raised.
     raised: Vec<Exception>,
     instructions: u64,
+    probe: Probe,
+    /// Handlers that are active, the innermost last.
+    handlers: Vec<Exception>,
     /// What the resets were for, and when they were, in picoseconds.
     resets: Vec<(u64, Reset)>,
     hung: Option<Stuck>,
@@ -126,6 +131,8 @@ impl Chip {
             hurried: true,
             raised: Vec::new(),
             instructions: 0,
+            probe: Probe::default(),
+            handlers: Vec::new(),
             resets: vec![(0, Reset::Power)],
             hung: None,
             ram,
@@ -150,6 +157,16 @@ impl Chip {
     /// Resets so far, with when they were, in picoseconds.
     pub(crate) fn resets(&self) -> &[(u64, Reset)] {
         &self.resets
+    }
+
+    /// How long interrupts have waited, by their numbers.
+    pub(crate) fn latencies(&self) -> &BTreeMap<u16, Latency> {
+        self.probe.latencies()
+    }
+
+    /// When rounds of readings began, in picoseconds, since this was last asked; from the first time on that it is.
+    pub(crate) fn take_rounds(&mut self) -> Vec<u64> {
+        self.shared.peripherals().rounds.replace(Vec::new()).unwrap_or_default()
     }
 
     /// What lies at the converter's inputs from now on.
@@ -200,6 +217,7 @@ impl Chip {
         self.shared.peripherals().reset(reset, now);
         self.core.reset(ResetKind::Cold);
         self.hung = None;
+        self.handlers.clear();
         self.resets.push((self.ps(), reset));
         self.shared.look();
     }
@@ -231,6 +249,7 @@ impl Chip {
         self.raised.clear();
         for (number, raised) in peripherals.interrupts(now) {
             self.core.set_irq(number, raised);
+            self.probe.line(number, raised, now);
             if raised {
                 self.raised.push(Exception(FIRST_INTERRUPT + number));
             }
@@ -269,10 +288,12 @@ impl Chip {
                     continue;
                 }
             }
+            let before = self.core.current_exception();
             let cycles = self.core.step();
             self.quick.core_stepped();
             self.instructions += 1;
             self.shared.set_now(self.shared.now() + cycles);
+            self.note_entry(before);
             // A wait is an instruction of one cycle.
             if cycles == 1 && (self.core.is_asleep() || self.core.is_locked_up()) {
                 self.shared.set_now(self.shared.now().max(horizon));
@@ -311,6 +332,26 @@ impl Chip {
             && !self.core.is_locked_up()
             && !self.core.reset_pending();
         ordinary.then_some(waits.is_some() && regs.primask)
+    }
+
+    fn note_entry(&mut self, before: Exception) {
+        let handler = self.core.current_exception();
+        if handler == before {
+            return;
+        }
+        if let Some(at) = self.handlers.iter().position(|outer| *outer == handler) {
+            // Back in a handler that others had interrupted.
+            self.handlers.truncate(at + 1);
+        } else if handler == Exception::THREAD {
+            self.handlers.clear();
+        } else {
+            // One that is chained to another comes in its place.
+            self.handlers.retain(|outer| self.core.with_sys(|system| system.is_active(*outer)));
+            self.handlers.push(handler);
+            let number = handler.0.wrapping_sub(FIRST_INTERRUPT);
+            let clock = self.shared.peripherals().clock;
+            self.probe.entered(number, self.shared.now(), |cycles| clock.ps(cycles));
+        }
     }
 
     fn refused(&self) -> Result<(), ChipError> {

@@ -5,7 +5,7 @@ use object::elf::{EM_ARM, ET_EXEC, FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader, ProgramHeader, Sym};
 use object::Endianness;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use zygote_protocol::RETAINED_WORDS;
 
 /// Interrupts of the STM32F446, so entries of its vector table after the first sixteen.
@@ -19,14 +19,8 @@ const RETAINED: &[u8] = b"5reset8RETAINED";
 #[derive(Debug, thiserror::Error)]
 pub enum ElfError {
     /// No such file, or it can't be read.
-    #[error("{path}: can't be read; `cargo xtask firmware` builds the board's program", path = path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        #[source]
-        source: io::Error,
-    },
+    #[error("the file can't be read; `cargo xtask firmware` builds the board's program")]
+    Read(#[source] io::Error),
     /// Something else than a program, or a broken one.
     #[error("not an ELF file for a 32-bit processor, or a damaged one: {what}")]
     NotElf {
@@ -97,8 +91,7 @@ impl Image {
     /// # Errors
     /// [`ElfError`].
     pub fn open(path: &Path) -> Result<Self, ElfError> {
-        let bytes = std::fs::read(path).map_err(|source| ElfError::Read { path: path.to_owned(), source })?;
-        Self::from_elf(&bytes)
+        Self::from_elf(&std::fs::read(path).map_err(ElfError::Read)?)
     }
 
     /// Reads a program that is in memory.

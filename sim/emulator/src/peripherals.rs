@@ -39,6 +39,9 @@ const TIMERS: [TimerPlace; 8] = [
 /// Those that drive heaters come first.
 const PWM_TIMERS: usize = 4;
 
+/// The converter's channel behind the multiplexer.
+const THERMISTORS: u32 = 0;
+
 /// An access that nothing here answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Unmodelled {
@@ -63,6 +66,8 @@ pub(crate) struct Peripherals {
     pub(crate) drive: Drive,
     pub(crate) refused: Option<Unmodelled>,
     pub(crate) flash: Flash,
+    /// When rounds of readings began, in picoseconds, if somebody wants to know.
+    pub(crate) rounds: Option<Vec<u64>>,
     rcc: Rcc,
     ports: [Gpio; 3],
     timers: [Timer; 8],
@@ -87,6 +92,7 @@ impl Peripherals {
             drive: Drive::OFF,
             refused: None,
             flash,
+            rounds: None,
             rcc,
             ports,
             timers: TIMERS.map(|TimerPlace(.., kind)| Timer::new(kind)),
@@ -194,7 +200,12 @@ impl Peripherals {
             0x4001_2000..0x4001_2400 => {
                 if self.rcc.enabled(Bus::Apb2, 8) {
                     let (analog, port) = (&self.analog, &self.ports[2]);
+                    let before = self.adc.over();
                     self.adc.write(offset, value, now, |channel| input(analog, port, channel));
+                    let first = self.adc.channel() == THERMISTORS && selected(port) == 0;
+                    if let (true, Some(rounds)) = (first && self.adc.over() != before, &mut self.rounds) {
+                        rounds.push(self.clock.ps(now));
+                    }
                 }
                 return Some(After::Go);
             }
@@ -327,12 +338,14 @@ fn timer_at(word: u32) -> Option<usize> {
 /// What lies at a channel of the converter.
 fn input(analog: &Analog, port: &Gpio, channel: u32) -> u16 {
     match channel {
-        0 => {
-            let selected = SELECT.fold(0, |selected, bit| selected | usize::from(port.level(bit)) << bit);
-            analog.thermistors[selected]
-        }
+        THERMISTORS => analog.thermistors[selected(port)],
         1 => analog.supply,
         4 => analog.current,
         _ => 0,
     }
+}
+
+/// The multiplexer's input that its select pins name.
+fn selected(port: &Gpio) -> usize {
+    SELECT.fold(0, |selected, bit| selected | usize::from(port.level(bit)) << bit)
 }

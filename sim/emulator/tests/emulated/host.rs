@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use zygote_emulator::{EmulatedBoard, Image};
 use zygote_protocol::{
     Action, CentiCelsius, Command, Event, Fault, Heat, Hello, HelloReply, Identity, Limits, Link,
-    MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Reply, Report, Request, Response, State, Step,
+    MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Reply, Report, Request, Response, Snapshot, State, Step,
     Telemetry, Urgent, decode_payload, program_crc,
 };
 use zygote_sim::plant::{Config, SmaConfig};
@@ -58,6 +58,8 @@ pub(crate) struct Host {
     pub(crate) faults: Vec<Fault>,
     pub(crate) events: Vec<Event>,
     pub(crate) telemetry: Vec<Telemetry>,
+    /// All that came over the line, with when.
+    pub(crate) heard: Vec<(Micros, Vec<u8>)>,
     /// The cable is plugged in.
     pub(crate) connected: bool,
     pub(crate) identity: Option<Identity>,
@@ -75,6 +77,7 @@ impl Host {
             faults: Vec::new(),
             events: Vec::new(),
             telemetry: Vec::new(),
+            heard: Vec::new(),
             connected: true,
             identity: None,
             link: Link::new(Micros(0)),
@@ -114,8 +117,9 @@ impl Host {
         }
         let mut back = Vec::new();
         self.board.transmit(&mut back);
-        if self.connected {
+        if self.connected && !back.is_empty() {
             self.take(&back);
+            self.heard.push((now, back));
         }
     }
 
@@ -193,9 +197,17 @@ impl Host {
         self.link.send_urgent(&Urgent::Stop).unwrap();
     }
 
-    /// What the MCU says that it is doing.
-    pub(crate) fn state(&self) -> Option<State> {
-        self.telemetry.last().map(|telemetry| telemetry.state)
+    /// What the program is doing, by what it keeps in its memory.
+    pub(crate) fn state(&self) -> State {
+        self.board.snapshot().map_or(State::Idle, |snapshot| snapshot.state)
+    }
+
+    /// What the MCU says that it was doing before its latest reset.
+    pub(crate) fn kept(&mut self) -> Snapshot {
+        match self.ask(Command::LastRun) {
+            Ok(Reply::LastRun(Some(snapshot))) => snapshot,
+            other => panic!("{other:?}"),
+        }
     }
 
     /// Nothing is energised: by the pins.
