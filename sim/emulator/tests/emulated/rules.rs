@@ -183,7 +183,7 @@ fn two_runs_are_the_same_in_every_byte_and_every_instruction() {
         let latencies = host.board.latencies().clone();
         (host.heard, host.board.instructions(), host.board.now(), latencies)
     });
-    assert!(first.0.len() > 100);
+    assert!(first.0.len() > 20, "{} pieces", first.0.len());
     assert_eq!(first, second);
 }
 
