@@ -80,6 +80,7 @@ MESSAGES = [
     (reports.Report, event(reports.StepDone(1, 9_700))),
     (reports.Fault, FAULT),
     (reports.Fault, FROZEN),
+    (reports.Fault, reports.Fault(Faulted.UNPLANNED_CURRENT, at=5_000_000, step=None, channel=None, value=800, limit=400)),
     (
         reports.Telemetry,
         reports.Telemetry(70_000_000_000, reports.State.RUNNING, 4_950, 620, 9, MOTIONS),

@@ -47,3 +47,4 @@ class Faulted(enum.IntEnum):
     OVER_CURRENT = 12
     SENSOR_FROZEN = 13
     NO_COOLING = 14
+    UNPLANNED_CURRENT = 15

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from zygote_wire import commands, postcard, reports
 from zygote_wire.frames import Frame, Kind
-from zygote_wire.hello import Hello, HelloReply
+from zygote_wire.hello import Hello, HelloReply, granted_session
 from zygote_wire.port import Port
 
 WINDOW = 8
@@ -52,9 +52,10 @@ class Packet:
 class Link:
     """A session with an MCU."""
 
-    def __init__(self, port: Port, session: int):
+    def __init__(self, port: Port, asked: int):
         self.port = port
-        self.session = session
+        self.asked = asked
+        self.session = asked
         self.notices: collections.deque[Notice] = collections.deque()
         self.responses: dict[int, reports.Accepted | reports.Rejected] = {}
         self._next_id = 0
@@ -72,15 +73,17 @@ class Link:
 
     def hello(self, hello: Hello = OURS, patience: float = PATIENCE) -> HelloReply:
         """Opens the session, or asks again who is there."""
-        frame = Frame(Kind.HELLO, self.session, payload=postcard.encode(hello))
+        frame = Frame(Kind.HELLO, self.asked, payload=postcard.encode(hello))
         end = time.monotonic() + patience
         while time.monotonic() < end:
             self.port.send(frame)
             again = time.monotonic() + HELLO_EVERY
             while (left := again - time.monotonic()) > 0:
                 for answer in self.port.receive(left):
-                    if answer.kind == Kind.HELLO_REPLY and answer.session == self.session:
-                        return postcard.decode(HelloReply, answer.payload)
+                    if answer.kind == Kind.HELLO_REPLY and answer.session == self.asked:
+                        reply = postcard.decode(HelloReply, answer.payload)
+                        self.session = granted_session(self.asked, reply.identity.boot)
+                        return reply
                     self._take(answer)
         raise NoAnswer(f"{self.port.device}: no answer to a hello within {patience} s")
 

@@ -162,5 +162,8 @@ codes! {
         NoCooling = 15, "a heater that is off doesn't cool: shorted MOSFET, frozen thermistor or too hot a place",
             "fall and least fall in 10 s, in 0.01 °C", "not of this hinge: it may be heated still",
             "keep the supply off; check MOSFET and thermistor; at more than 40 °C around it raise the rig file's cool_to";
+        UnplannedCurrent = 16, "the supply gives more current than what is on should draw",
+            "current and planned current, in mA; acts 25 % and 100 mA above it for 250 ms, while no servo is driven", "not of a hinge that is heated unasked",
+            "keep the supply off; look for a shorted MOSFET or heater; measure the currents of the rig file";
     }
 }

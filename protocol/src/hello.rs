@@ -3,15 +3,15 @@
 //! The first three fields of [`Hello`] and of [`HelloReply`] keep their place in every version, so that two ends
 //! that don't understand each other can at least say so.
 
-use crate::{Limits, schema};
+use crate::{Limits, NO_SESSION, schema};
 use heapless::String;
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
 
 /// The protocol version that this crate speaks.
-pub const VERSION: u16 = 2;
+pub const VERSION: u16 = 3;
 /// The oldest protocol version that this crate still understands.
-pub const VERSION_MIN: u16 = 2;
+pub const VERSION_MIN: u16 = 3;
 
 /// Host to MCU: opens the session whose number stands in the frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
@@ -55,10 +55,21 @@ pub struct HelloReply {
     pub buffers: Buffers,
 }
 
+/// The session that an MCU of this boot opens for a hello of this number. A whole session that is said again after a reset
+/// so opens another one, and what it says belongs to none (S11).
+pub const fn granted_session(asked: u32, boot: u32) -> u32 {
+    /// Odd, so that no two boots grant the same; far from 1, so that neighbours of one boot and the next differ.
+    const SPREAD: u32 = 0x9e37_79b9;
+    match asked ^ boot.wrapping_mul(SPREAD) {
+        NO_SESSION => asked,
+        granted => granted,
+    }
+}
+
 /// Who an MCU is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]
 pub struct Identity {
-    /// Another number after every reset.
+    /// Another number after every reset, and after every time that power was off.
     pub boot: u32,
     /// Firmware version.
     pub firmware: String<16>,

@@ -35,7 +35,8 @@ pub use command::{
 };
 pub use frame::{Decoder, FrameError, FrameKind, Header, MAX_ENCODED, MAX_PAYLOAD, decode_payload, encode};
 pub use hello::{
-    Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, peek_versions,
+    Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, granted_session,
+    peek_versions,
 };
 pub use limits::{LimitName, Limits};
 pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};

@@ -41,9 +41,9 @@ type Payload = Vec<u8, MAX_PAYLOAD>;
 /// What arrived.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Received<'a> {
-    /// A hello, with the session that it wants to open.
+    /// A hello, with the number that it asks for; [`crate::granted_session`] is the session that it opens.
     Hello(u32, &'a [u8]),
-    /// The answer to a hello, with its session.
+    /// The answer to a hello, with the number that was asked for.
     HelloReply(u32, &'a [u8]),
     /// The next reliable message.
     Message(&'a [u8]),
@@ -188,11 +188,6 @@ impl Link {
     /// opening it again would let its commands be executed twice (S11).
     pub fn was_replaced(&self, session: u32) -> bool {
         session != NO_SESSION && self.half.replaced.contains(&session)
-    }
-
-    /// Never opens a session that was open before this link was made: before a reset.
-    pub fn refuse(&mut self, session: u32) {
-        self.half.remember(session);
     }
 
     /// Heeds what the other end can take in: frames under way at once, and bytes of payload in one. To be called
@@ -341,14 +336,10 @@ impl Half {
     /// Another session than the open one is opened: the open one is over for good.
     fn remember_replaced(&mut self, by: u32) {
         if let Some(session) = self.session.filter(|session| *session != by) {
-            self.remember(session);
-        }
-    }
-
-    fn remember(&mut self, session: u32) {
-        self.replaced.rotate_right(1);
-        if let Some(latest) = self.replaced.first_mut() {
-            *latest = session;
+            self.replaced.rotate_right(1);
+            if let Some(latest) = self.replaced.first_mut() {
+                *latest = session;
+            }
         }
     }
 

@@ -96,11 +96,8 @@ impl Retained {
 
     /// As words, for memory that is kept in words; [`Self::from_words`] gives it back.
     pub fn to_words(&self) -> [u32; RETAINED_WORDS] {
-        let mut words = [self.crc, self.length].into_iter().chain(
-            self.bytes
-                .chunks_exact(4)
-                .map(|bytes| bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))),
-        );
+        let bytes = self.bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes));
+        let mut words = [self.crc, self.length].into_iter().chain(bytes);
         core::array::from_fn(|_| words.next().unwrap_or(0))
     }
 
@@ -108,8 +105,8 @@ impl Retained {
     pub fn from_words(words: &[u32; RETAINED_WORDS]) -> Self {
         let [crc, length, payload @ ..] = words;
         let mut bytes = [0; MAX_PAYLOAD];
-        for (bytes, word) in bytes.chunks_exact_mut(4).zip(payload) {
-            bytes.copy_from_slice(&word.to_le_bytes());
+        for (bytes, word) in bytes.as_chunks_mut().0.iter_mut().zip(payload) {
+            *bytes = word.to_le_bytes();
         }
         Self { crc: *crc, length: *length, bytes }
     }
@@ -179,6 +176,11 @@ mod tests {
         for length in [0, retained.length + 1, 241, u32::MAX] {
             assert_eq!(Retained { length, ..retained }.recall(), None, "length {length}");
         }
+    }
+
+    #[test]
+    fn its_words_are_no_more_than_its_bytes_need() {
+        assert_eq!(4 * RETAINED_WORDS, size_of::<Retained>());
     }
 
     #[test]

@@ -61,3 +61,34 @@ impl Millis {
         ms * 1000
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::fmt::Write;
+
+    #[test]
+    fn times_and_spans_go_together_and_saturate() {
+        assert_eq!(Millis(7).to_micros(), 7_000);
+        assert_eq!(Millis(u32::MAX).to_micros(), 4_294_967_295_000);
+        assert_eq!(Micros(5).plus(Millis(7)), Micros(7_005));
+        assert_eq!(Micros(u64::MAX - 1).plus(Millis(1)), Micros(u64::MAX));
+        assert_eq!((Micros(9).since(Micros(5)), Micros(5).since(Micros(9))), (4, 0));
+    }
+
+    #[test]
+    fn quantities_are_told_with_their_unit() {
+        let mut told = heapless::String::<64>::new();
+        write!(
+            told,
+            "{}, {}, {}, {}, {}",
+            Micros(1),
+            Millis(2),
+            CentiCelsius(-3),
+            Milliamps(4),
+            Millivolts(5)
+        )
+        .unwrap();
+        assert_eq!(told, "1 us, 2 ms, -3 c°C, 4 mA, 5 mV");
+    }
+}

@@ -7,14 +7,14 @@
 //!                               <== frames under way ==
 //! ```
 //!
-//! That the search can fail is shown with three ends that are wrong on purpose.
+//! That the search can fail is shown with four ends that are wrong on purpose.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::HashSet;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use zygote_protocol::{
-    Decoder, FrameKind, Header, Link, MAX_ENCODED, Micros, Received, decode_payload, encode,
+    Decoder, FrameKind, Header, Link, MAX_ENCODED, Micros, Received, decode_payload, encode, granted_session,
 };
 
 /// Frames that may be under way in one direction.
@@ -49,6 +49,8 @@ enum Mutant {
     TakesRepetitions,
     /// The MCU opens any session that it is asked for, also one that was replaced.
     OpensReplaced,
+    /// Both ends use the number of the hello, whatever the boot.
+    GrantsWhatIsAsked,
     /// The host sends the commands of the old session, for which it has no answer, again in the new one.
     ResendsAfterReconnect,
 }
@@ -212,12 +214,13 @@ impl World {
         let mut bytes = frame.as_slice();
         while let Some(received) = self.mcu.receive_with_room(Micros(self.mcu_now), &mut bytes) {
             match received {
-                Received::Hello(session, _) => {
+                Received::Hello(asked, _) => {
+                    let session = granted(asked, self.boot, mutant);
                     let replaced = self.mcu.was_replaced(session) && mutant != Mutant::OpensReplaced;
                     if self.mcu.session() != Some(session) && !replaced {
                         self.mcu.open(session, Micros(self.mcu_now));
                     }
-                    self.mcu.send_hello_reply(session, &self.boot).unwrap();
+                    self.mcu.send_hello_reply(asked, &self.boot).unwrap();
                 }
                 Received::Message(payload) => {
                     let command: u8 = decode_payload(payload).unwrap();
@@ -243,7 +246,7 @@ impl World {
                     if !self.is_open {
                         self.is_open = true;
                         self.known_boot = Some(boot);
-                        self.host.open(session, Micros(self.host_now));
+                        self.host.open(granted(session, boot, mutant), Micros(self.host_now));
                     }
                 }
                 Received::Message(payload) => self.answered.push(decode_payload(payload).unwrap()),
@@ -273,6 +276,11 @@ impl World {
         self.hash(&mut hasher);
         hasher.finish()
     }
+}
+
+/// The session that an MCU of this boot opens.
+fn granted(asked: u32, boot: u8, mutant: Mutant) -> u32 {
+    if mutant == Mutant::GrantsWhatIsAsked { asked } else { granted_session(asked, boot.into()) }
 }
 
 /// One frame, where one is due.
@@ -430,10 +438,15 @@ fn a_host_that_sends_unanswered_commands_again_after_a_reset_is_caught() {
     assert_caught(Budget { timeouts: 1, resets: 1, ..NOTHING }, Mutant::ResendsAfterReconnect);
 }
 
-/// Why a line must keep its order, at least across a reset: an old hello would open its session in the new boot, and an
-/// old command be new there. Every serial line keeps it.
+/// A line that keeps frames over a reset and says them again in any order: a session belongs to one boot.
 #[test]
-fn a_line_that_keeps_frames_beyond_a_reset_and_reorders_them_is_caught() {
-    let budget = Budget { commands: 1, mishaps: 2, overtakings: 2, resets: 1, ..NOTHING };
-    assert_caught(budget, Mutant::None);
+fn s11_when_frames_of_before_a_reset_come_again_after_it_in_any_order() {
+    assert_holds("replay over a reset", REPLAYED);
 }
+
+#[test]
+fn ends_that_keep_the_session_over_a_reset_are_caught() {
+    assert_caught(REPLAYED, Mutant::GrantsWhatIsAsked);
+}
+
+const REPLAYED: Budget = Budget { commands: 1, mishaps: 2, overtakings: 2, resets: 1, ..NOTHING };

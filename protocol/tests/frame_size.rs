@@ -23,3 +23,16 @@ fn a_frame_that_is_one_byte_longer_is_refused_and_the_next_one_arrives() {
     assert_eq!(decoder.next(&mut bytes), Some(Err(FrameError::TooLong)));
     assert_eq!(decoder.next(&mut bytes), Some(Ok(HEADER)));
 }
+
+#[test]
+fn a_longer_buffer_serves_and_one_without_room_for_the_longest_frame_does_not() {
+    let mut frame = [0; MAX_ENCODED + 1];
+    assert_eq!(encode(HEADER, &[1], &mut frame), Some(14));
+    assert_eq!(encode(HEADER, &[1], &mut frame[..MAX_ENCODED]), Some(14));
+    assert_eq!(encode(HEADER, &[1], &mut frame[..MAX_ENCODED - 1]), None);
+}
+
+#[test]
+fn an_idle_line_is_no_broken_frame() {
+    assert_eq!(Decoder::new().next(&mut &[0, 0, 0][..]), None);
+}

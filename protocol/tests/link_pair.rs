@@ -99,13 +99,13 @@ impl End {
     }
 }
 
-/// Runs both ends until everything arrived or a simulated minute is over.
+/// Runs both ends until everything arrived or ten simulated minutes are over.
 fn converse(weather: Weather, seed: u64, count: u32) -> (End, End, u64) {
     let (mut there, mut back) = (Line::new(weather, seed), Line::new(weather, seed.rotate_left(32) ^ 0xabcd));
     let (mut a, mut b) = (End::new(count), End::new(count));
     a.link.send_urgent(&99_u32).unwrap();
     let mut now = 0;
-    while now < 60_000_000 {
+    while now < 600_000_000 {
         a.turn(now, &mut back, &mut there);
         b.turn(now, &mut there, &mut back);
         let all = |end: &End| end.to_send.is_empty() && end.link.is_settled();

@@ -7,14 +7,8 @@ mod golden;
 use golden::golden;
 use zygote_protocol::{
     Command, Fault, FaultCode, Micros, Reply, Report, Request, ResetCause, Response, Snapshot, State,
-    StepState, schema,
+    StepState,
 };
-
-#[test]
-fn the_schema_hash_stays() {
-    assert_eq!(format!("{:08x}", schema::compute()), "1bd4149d");
-    assert_eq!(schema::hash(), schema::compute());
-}
 
 #[test]
 fn the_last_run_stays() {

@@ -91,6 +91,11 @@ impl Board {
         &self.core
     }
 
+    /// The MCU's boot id: its number of resets, counted from what it was made with.
+    pub fn boot(&self) -> u32 {
+        self.boot
+    }
+
     /// The physics, as they truly are.
     pub fn plant(&self) -> &Plant {
         &self.plant

@@ -11,6 +11,7 @@ mod firmware;
 mod fuzz;
 mod hil;
 mod lint;
+mod mutants;
 mod parts;
 mod python;
 mod sections;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         match verb.as_str() {
             "fuzz" => return told(fuzz::run(options)),
             "campaign" => return told(campaign::run(options)),
+            "mutants" => return told(mutants::run(options)),
             _ => {}
         }
     }
@@ -79,7 +81,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

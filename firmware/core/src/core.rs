@@ -25,7 +25,7 @@ use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
     Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Received,
     RefusalCode, Report, Request, Response, Snapshot, State, StepState, Telemetry, Urgent, VERSION,
-    VERSION_MIN, WINDOW, decode_payload, peek_request_id, peek_versions, schema,
+    VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id, peek_versions, schema,
 };
 
 /// Time between two telemetry messages.
@@ -70,10 +70,6 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
                 "a program has a step a channel at most, and none is streamed"
             );
         };
-        let mut link = Link::new(now);
-        if let Some(session) = before.as_ref().and_then(|before| before.session) {
-            link.refuse(session);
-        }
         Self {
             config,
             mode: Mode::Idle,
@@ -82,7 +78,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             guards: [ThermalGuard::NEW; HEATERS],
             stop_pressed: false,
             outputs: Outputs::OFF,
-            link,
+            link: Link::new(now),
             events: EventQueue::new(),
             supply_guard: SupplyGuard::new(),
             before,
@@ -164,10 +160,10 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         loop {
             let Some(received) = self.link.receive_with_room(now, &mut bytes) else { return };
             match received {
-                Received::Hello(session, payload) => {
+                Received::Hello(asked, payload) => {
                     // Only the front: a hello of another version may go on differently, and is answered all the same.
                     let hello = peek_versions(payload);
-                    self.greet(now, session, hello.as_ref());
+                    self.greet(now, asked, hello.as_ref());
                 }
                 Received::Message(payload) => {
                     let request = decode_payload::<Request>(payload).ok_or(peek_request_id(payload));
@@ -185,12 +181,13 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     }
 
     /// Answers a hello. Another session than the open one takes over, and nothing stays energised for it.
-    fn greet(&mut self, now: Micros, session: u32, hello: Option<&Hello>) {
+    fn greet(&mut self, now: Micros, asked: u32, hello: Option<&Hello>) {
         let Some(hello) = hello else { return };
         let speaks_ours =
             hello.min <= VERSION && hello.current >= VERSION_MIN && hello.schema == schema::hash();
+        let session = granted_session(asked, self.config.identity.boot);
         let is_new = self.link.session() != Some(session) && !self.link.was_replaced(session);
-        if speaks_ours && session != NO_SESSION && is_new {
+        if speaks_ours && asked != NO_SESSION && is_new {
             if self.mode.is_energised() {
                 self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
             }
@@ -211,7 +208,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
                 payload: index(MAX_PAYLOAD),
             },
         };
-        let sent = self.link.send_hello_reply(session, &reply);
+        let sent = self.link.send_hello_reply(asked, &reply);
         debug_assert!(sent.is_ok(), "a hello fits a frame");
     }
 
@@ -293,7 +290,14 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             return Err(Trip::new(FaultCode::LinkLost, silence, limits.link_timeout.0).at(now, None, None));
         }
         self.check_heaters(now, &limits)?;
-        self.supply_guard.check(self.current, limits.supply).map_err(|trip| trip.at(now, None, None))
+        self.check_supply(now, &limits).map_err(|trip| trip.at(now, None, None))
+    }
+
+    fn check_supply(&mut self, now: Micros, limits: &Limits) -> Result<(), Trip> {
+        self.supply_guard.check(self.current, limits.supply)?;
+        let planned = self.sequencer.planned(self.program.steps());
+        let planned = if self.sequencer.drives_servo() { None } else { Some(planned) };
+        self.supply_guard.check_planned(now, self.current, planned)
     }
 
     fn check_heaters(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {

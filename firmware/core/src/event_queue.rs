@@ -46,3 +46,29 @@ impl EventQueue {
         self.waiting.clear();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use zygote_protocol::{EventKind, Micros};
+
+    fn event(step: u16) -> Event {
+        Event { at: Micros(0), kind: EventKind::StepStarted { step } }
+    }
+
+    #[test]
+    fn the_room_for_motions_shrinks_to_the_reserve_and_then_the_oldest_event_goes() {
+        let mut queue = EventQueue::new();
+        for number in 0..88 {
+            assert_eq!(queue.room(), 88 - usize::from(number));
+            queue.push(event(number));
+        }
+        for number in 88..97 {
+            assert_eq!(queue.room(), 0);
+            queue.push(event(number));
+        }
+        assert_eq!(queue.count(), 97);
+        let left = core::iter::from_fn(|| queue.pop());
+        assert!(left.eq((1..97).map(event)), "all but the oldest, in order");
+    }
+}

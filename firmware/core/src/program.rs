@@ -212,20 +212,20 @@ fn check_heat(at: u16, heat: &Heat, limits: &Limits) -> Result<(), Refusal> {
 }
 
 fn check_turn(at: u16, turn: &Turn, config: &Config) -> Result<(), Refusal> {
-    let range = config.servo_pulse_us.clone();
-    match [turn.from_us, turn.to_us].into_iter().find(|pulse| !range.contains(pulse)) {
-        Some(pulse) if pulse < *range.start() => {
-            Err(refuse(RefusalCode::ServoRange, at, *range.start(), pulse))
+    let (least, most) = (*config.servo_pulse_us.start(), *config.servo_pulse_us.end());
+    for pulse in [turn.from_us, turn.to_us] {
+        let nearest = pulse.min(most).max(least);
+        if pulse != nearest {
+            return Err(refuse(RefusalCode::ServoRange, at, nearest, pulse));
         }
-        Some(pulse) => Err(refuse(RefusalCode::ServoRange, at, *range.end(), pulse)),
-        None => Ok(()),
     }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use zygote_protocol::{Milliamps, Millis};
+    use zygote_protocol::{Milliamps, Millis, Release};
 
     const LIMITS: Limits = Limits {
         max_temperature: CentiCelsius(12_000),
@@ -259,6 +259,112 @@ mod tests {
         for (heat, expected, got) in cases {
             let refusal = refuse(RefusalCode::StepOverOnTime, 3, expected, got);
             assert_eq!(check_heat(3, &heat, &LIMITS), Err(refusal));
+        }
+    }
+
+    const CHANNELS: Channels = Channels { heaters: 4, servos: 3, springs: 2 };
+
+    fn config() -> Config {
+        let identity = zygote_protocol::Identity {
+            boot: 0,
+            firmware: String::new(),
+            git: String::new(),
+            board: String::new(),
+            unique_id: [0; 12],
+            reset: zygote_protocol::ResetCause::Power,
+        };
+        let (channels, thermistor) = (CHANNELS, crate::NTC_10K);
+        Config { identity, ceiling: LIMITS, channels, thermistor, servo_pulse_us: 500..=2_500 }
+    }
+
+    fn turn(channel: u16, from_us: u16, to_us: u16) -> Turn {
+        let (duration, settle) = (Millis(1_000), Millis(100));
+        Turn {
+            channel,
+            from_us,
+            to_us,
+            duration,
+            settle,
+            current: Milliamps(300),
+            hold_current: Milliamps(10),
+        }
+    }
+
+    fn release(channel: u16, pulse: Millis) -> Release {
+        Release { channel, pulse, settle: Millis(100), current: Milliamps(1_000) }
+    }
+
+    fn step(after: &[u16], action: Action) -> Step {
+        Step { hinge: 0, after: after.iter().copied().collect(), action }
+    }
+
+    #[test]
+    fn a_program_that_fills_the_store_is_taken_and_one_step_more_is_refused() {
+        let mut program = Program::<4>::new();
+        assert_eq!(program.upload(1, String::new(), 4, 0), Ok(()));
+        assert_eq!(program.upload(1, String::new(), 5, 0), Err(refuse(RefusalCode::TooManySteps, 0, 4, 5)));
+    }
+
+    #[test]
+    fn s4_the_largest_values_that_a_limit_allows_are_allowed() {
+        let edges = [
+            Heat { max_on: LIMITS.max_on, ..GOOD },
+            Heat { gain_window: GOOD.max_on, ..GOOD },
+            Heat { max_temperature: LIMITS.max_temperature, ..GOOD },
+            Heat { rest: LIMITS.min_rest, ..GOOD },
+        ];
+        for heat in edges {
+            assert_eq!(check_heat(0, &heat, &LIMITS), Ok(()), "{heat:?}");
+        }
+    }
+
+    #[test]
+    fn s7_a_step_may_draw_all_that_the_supply_gives_and_no_more() {
+        let draws =
+            |current| check_motion(2, &step(&[], Action::Heat(Heat { current, ..GOOD })), &LIMITS, &config());
+        assert_eq!(draws(Milliamps(1_000)), Ok(()));
+        assert_eq!(draws(Milliamps(1_001)), Err(refuse(RefusalCode::StepOverCurrent, 2, 1_000, 1_001)));
+    }
+
+    #[test]
+    fn s4_a_spring_is_pulsed_for_as_long_as_a_heater_may_be_on_and_no_longer() {
+        let pulsed =
+            |pulse| check_motion(2, &step(&[], Action::Release(release(0, pulse))), &LIMITS, &config());
+        assert_eq!(pulsed(Millis(20_000)), Ok(()));
+        assert_eq!(pulsed(Millis(20_001)), Err(refuse(RefusalCode::StepOverOnTime, 2, 20_000, 20_001)));
+    }
+
+    #[test]
+    fn s13_a_servo_pulse_outside_what_the_board_sends_is_refused_with_the_nearest_inside() {
+        let check = |from_us, to_us| {
+            check_motion(2, &step(&[], Action::Turn(turn(0, from_us, to_us))), &LIMITS, &config())
+        };
+        assert_eq!((check(500, 2_500), check(2_500, 500)), (Ok(()), Ok(())));
+        for (pulse, nearest) in [(499, 500), (0, 500), (2_501, 2_500), (u16::MAX, 2_500)] {
+            let refusal = Err(refuse(RefusalCode::ServoRange, 2, nearest, pulse));
+            assert_eq!((check(pulse, 1_000), check(1_000, pulse)), (refusal, refusal), "{pulse}");
+        }
+    }
+
+    #[test]
+    fn s10_a_step_waits_for_earlier_ones_only_and_is_told_the_latest_that_it_may_wait_for() {
+        let check = |after: &[u16]| check_order(3, &step(after, Action::Heat(GOOD)));
+        assert_eq!(check(&[0, 2]), Ok(()));
+        assert_eq!(check(&[0, 3]), Err(refuse(RefusalCode::OrderViolated, 3, 2, 3)));
+        assert_eq!(check(&[9, 0]), Err(refuse(RefusalCode::OrderViolated, 3, 2, 9)));
+    }
+
+    #[test]
+    fn s13_a_channel_past_the_last_one_fitted_is_refused_with_the_last_one() {
+        let kinds: [(fn(u16) -> Action, u16); 3] = [
+            (|channel| Action::Heat(Heat { channel, ..GOOD }), CHANNELS.heaters),
+            (|channel| Action::Turn(turn(channel, 500, 500)), CHANNELS.servos),
+            (|channel| Action::Release(release(channel, Millis(1))), CHANNELS.springs),
+        ];
+        for (action, count) in kinds {
+            assert_eq!(check_channel(1, &step(&[], action(count - 1)), CHANNELS), Ok(()));
+            let refusal = refuse(RefusalCode::UnknownChannel, 1, count - 1, count);
+            assert_eq!(check_channel(1, &step(&[], action(count)), CHANNELS), Err(refusal));
         }
     }
 }

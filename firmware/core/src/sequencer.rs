@@ -204,14 +204,28 @@ impl<const STEPS: usize> Sequencer<STEPS> {
         if !before_are_open {
             return false;
         }
-        let (mut sum, mut active) = (step.action.current().0, 1);
-        for (slot, step) in self.slots.iter().zip(steps) {
-            if let Slot::Active(motion) = slot {
-                sum = sum.saturating_add(motion.current(&step.action).0);
-                active += usize::from(motion.step_state() != StepState::Done);
-            }
-        }
-        sum <= instant.supply.0 && events.room() >= active * EVENTS_PER_MOTION
+        let moving = |motion: &&Motion| motion.step_state() != StepState::Done;
+        let motions = 1 + self.motions_of(steps).map(|(motion, _)| motion).filter(moving).count();
+        let sum = self.planned(steps).0.saturating_add(step.action.current().0);
+        sum <= instant.supply.0 && events.room() >= motions * EVENTS_PER_MOTION
+    }
+
+    fn motions_of<'a>(&'a self, steps: &'a [Step]) -> impl Iterator<Item = (&'a Motion, &'a Step)> {
+        self.slots.iter().zip(steps).filter_map(|(slot, step)| match slot {
+            Slot::Active(motion) => Some((motion, step)),
+            Slot::Waiting | Slot::Ended(_) => None,
+        })
+    }
+
+    /// Most current that all motions together may draw now, by the program.
+    pub(crate) fn planned(&self, steps: &[Step]) -> Milliamps {
+        let currents = self.motions_of(steps).map(|(motion, step)| motion.current(&step.action).0);
+        Milliamps(currents.fold(0, u32::saturating_add))
+    }
+
+    /// A servo is moved or held: what it draws depends on its load.
+    pub(crate) fn drives_servo(&self) -> bool {
+        self.slots.iter().any(|slot| matches!(slot, Slot::Active(Motion::Turn(_))))
     }
 
     /// Marks what was moving when everything went off.
@@ -285,3 +299,6 @@ fn drive<const H: usize, const S: usize, const R: usize>(motion: &Motion, output
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -47,9 +47,8 @@ impl ServoMover {
 
 /// The point after `part` of `whole` on the way from `a` to `b`; `part` is below `whole`.
 fn between(a: u16, b: u16, part: u64, whole: u64) -> u16 {
-    let way = u64::from(a.abs_diff(b)) * part / whole;
-    let way = u16::try_from(way).unwrap_or(0);
-    if b > a { a.saturating_add(way) } else { a.saturating_sub(way) }
+    let sum = u64::from(a) * (whole - part) + u64::from(b) * part;
+    u16::try_from(sum / whole).unwrap_or(b)
 }
 
 #[cfg(test)]
@@ -76,6 +75,7 @@ mod tests {
             let mut servo = mover(from, to);
             servo.advance(Micros(500_000));
             assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(middle), StepState::Moving));
+            assert_eq!(servo.phase(), Some(Phase::Turning { pulse_us: middle }));
             servo.advance(Micros(1_000_000));
             assert_eq!(
                 (servo.pulse(), servo.step_state()),
@@ -85,7 +85,7 @@ mod tests {
             servo.advance(Micros(1_100_000));
             assert_eq!((servo.pulse(), servo.step_state()), (PulseMicros(to), StepState::Done));
             servo.advance(Micros(9_000_000));
-            assert_eq!(servo.pulse(), PulseMicros(to));
+            assert_eq!((servo.pulse(), servo.phase()), (PulseMicros(to), None));
         }
     }
 

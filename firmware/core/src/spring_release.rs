@@ -50,9 +50,12 @@ mod tests {
         assert!(spring.energised());
         spring.advance(Micros(199_999));
         assert!(spring.energised());
+        assert_eq!(spring.phase(), Some(Phase::Releasing));
         spring.advance(Micros(200_000));
         assert_eq!((spring.energised(), spring.step_state()), (false, StepState::Moving));
+        assert_eq!(spring.phase(), Some(Phase::Releasing), "it opens");
         spring.advance(Micros(500_000));
         assert_eq!((spring.energised(), spring.step_state()), (false, StepState::Done));
+        assert_eq!(spring.phase(), None);
     }
 }

@@ -68,4 +68,11 @@ mod tests {
         assert!(NTC_10K.temperature(0).0 > 20_000);
         assert!(NTC_10K.temperature(ADC_FULL_SCALE).0 < -5_000);
     }
+
+    #[test]
+    fn a_reading_at_either_end_is_taken_for_the_next_one_inside() {
+        assert_eq!(NTC_10K.temperature(0), NTC_10K.temperature(1));
+        assert_eq!(NTC_10K.temperature(ADC_FULL_SCALE), NTC_10K.temperature(ADC_FULL_SCALE - 1));
+        assert!(NTC_10K.temperature(ADC_FULL_SCALE - 1) < NTC_10K.temperature(ADC_FULL_SCALE - 2));
+    }
 }

@@ -5,8 +5,8 @@ mod a_board;
 
 use zygote_core::{Core, Outputs};
 use zygote_protocol::{
-    Command, Decoder, FrameKind, Header, Hello, MAX_ENCODED, Micros, Millis, Reply, Report, Request, RigId,
-    State, VERSION, WINDOW, decode_payload, encode,
+    Command, Decoder, Event, EventKind, FrameKind, Header, Hello, MAX_ENCODED, Micros, Millis, Reply, Report,
+    Request, RigId, State, VERSION, WINDOW, decode_payload, encode,
 };
 
 type TheCore = Core<1, 1, 1, 4>;
@@ -88,6 +88,15 @@ fn answered(said: &[(Header, Vec<u8>)]) -> Vec<u16> {
         _ => None,
     };
     said.iter().filter_map(response).collect()
+}
+
+/// The states that events tell of.
+fn events(said: &[(Header, Vec<u8>)]) -> Vec<State> {
+    let state = |(_, payload): &(Header, Vec<u8>)| match decode_payload(payload) {
+        Some(Report::Event(Event { kind: EventKind::State(state), .. })) => Some(state),
+        _ => None,
+    };
+    said.iter().filter(|(header, _)| header.kind == FrameKind::Data).filter_map(state).collect()
 }
 
 /// The run of the program that is being uploaded, as a Status says it.
@@ -219,4 +228,53 @@ fn a_stop_of_a_host_that_does_not_read_acts_all_the_same() {
     let stop = frame(Header { kind: FrameKind::Urgent, session: 0, seq: 0, ack: 0 }, &[0]);
     assert_eq!(kinds(&bench.hear(&stop)).first(), Some(&FrameKind::UrgentAck));
     assert_eq!(bench.core.state(), State::Safe);
+}
+
+#[test]
+fn s11_a_hello_that_comes_twice_leaves_its_session_as_it_is() {
+    let mut bench = Bench::new();
+    assert_eq!(answered(&bench.hear(&request(SESSION, 0, 0, upload(1)))), [0]);
+    assert_eq!(kinds(&bench.hello(SESSION))[0], FrameKind::HelloReply);
+    assert_eq!(answered(&bench.hear(&request(SESSION, 1, 2, Command::Status))), [1]);
+}
+
+#[test]
+fn an_event_leaves_the_last_two_places_to_responses() {
+    let mut bench = Bench::new();
+    for seq in 0..WINDOW - 3 {
+        let seq = u8::try_from(seq).unwrap();
+        assert_eq!(answered(&bench.hear(&request(SESSION, seq, 0, Command::Status))), [u16::from(seq)]);
+    }
+    // The upload's response leaves room for two; its event waits, so two more requests are answered.
+    for (seq, command) in [(5, upload(1)), (6, Command::Status), (7, Command::Status)] {
+        let said = bench.hear(&request(SESSION, seq, 0, command));
+        assert_eq!(answered(&said), [u16::from(seq)], "request {seq}");
+    }
+    // Once the host acknowledges, the event follows.
+    let said = bench.hear(&request(SESSION, 8, 8, Command::Status));
+    assert_eq!(answered(&said), [8]);
+    assert_eq!(events(&said), [State::Idle]);
+}
+
+#[test]
+fn the_next_session_is_not_told_the_events_of_the_one_before() {
+    let mut bench = Bench::new();
+    // Not sent yet.
+    bench.core.handle_bytes(bench.now, &request(SESSION, 0, 0, upload(1)));
+    assert_eq!(kinds(&bench.hello(SESSION + 1)), [FrameKind::HelloReply]);
+    let said = bench.hear(&request(SESSION + 1, 0, 0, Command::Status));
+    assert_eq!((answered(&said), events(&said)), (vec![0], vec![]));
+}
+
+#[test]
+fn the_core_says_when_it_wants_to_send_next() {
+    let mut bench = Bench::new();
+    bench.hear(&request(SESSION, 0, 0, Command::Status));
+    let due = bench.core.poll_timeout(bench.now).unwrap();
+    assert!(due > bench.now, "everything was sent");
+    bench.now = Micros(due.0 - 1);
+    assert_eq!(bench.said(), []);
+    bench.now = due;
+    assert_ne!(bench.said(), [], "the answer once more, or a sign of life");
+    assert_eq!(Core::<1, 1, 1, 4>::new(a_board::config(1, 1, 1), due, None).poll_timeout(due), None);
 }

@@ -46,7 +46,7 @@ fn a_hello_of_this_version_opens_its_session() {
     let mut core = core();
     assert_eq!(decode_payload(&hello(VERSION, VERSION, schema::hash(), &[])), Some(Hello::ours()));
     let (header, reply) = answer(&mut core, 5, &hello(VERSION, VERSION, schema::hash(), &[])).unwrap();
-    assert_eq!((header.kind, header.session, reply.identity.boot), (FrameKind::HelloReply, 5, 7));
+    assert_eq!((header.kind, header.session, reply.identity.boot), (FrameKind::HelloReply, 5, 0));
     assert!(!is_closed(&mut core));
 }
 
@@ -66,4 +66,23 @@ fn a_hello_of_session_0_is_answered_and_opens_nothing() {
     let (header, _) = answer(&mut core, NO_SESSION, &hello(VERSION, VERSION, schema::hash(), &[])).unwrap();
     assert_eq!(header.session, NO_SESSION);
     assert!(is_closed(&mut core));
+}
+
+#[test]
+fn a_hello_that_is_wrong_in_one_thing_only_opens_nothing() {
+    let ours = schema::hash();
+    for (min, current, schema) in
+        [(VERSION + 1, VERSION + 2, ours), (0, VERSION_MIN - 1, ours), (VERSION, VERSION, !ours)]
+    {
+        let mut core = core();
+        assert!(answer(&mut core, 5, &hello(min, current, schema, &[])).is_some());
+        assert!(is_closed(&mut core), "versions {min} to {current}, schema {schema:#x}");
+    }
+}
+
+#[test]
+fn a_hello_that_spans_several_versions_opens_its_session() {
+    let mut core = core();
+    answer(&mut core, 5, &hello(VERSION_MIN - 1, VERSION + 1, schema::hash(), &[])).unwrap();
+    assert!(!is_closed(&mut core));
 }

@@ -4,7 +4,7 @@ use crate::Transport;
 use std::io;
 use zygote_protocol::{
     Hello, HelloReply, Link, MAX_ENCODED, Millis, Received, VERSION, VERSION_MIN, decode_payload,
-    peek_versions, schema,
+    granted_session, peek_versions, schema,
 };
 
 /// A hello is repeated so often until it is answered.
@@ -92,7 +92,7 @@ pub(crate) fn shake_hands<T: Transport>(
                     && session == number
                 {
                     let info = understand(&line, payload)?;
-                    link.open(number, now);
+                    link.open(granted_session(number, info.identity.boot), now);
                     link.heed(info.buffers);
                     return Ok(info);
                 }

@@ -157,7 +157,7 @@ impl<B: Subject> Stage<B> {
     fn reach_board(&mut self, bytes: &[u8]) {
         let now = self.board.now();
         for frame in bytes.split_inclusive(|byte| *byte == 0) {
-            self.witness.heard.hear(now, frame);
+            self.witness.heard.hear(now, self.board.boot(), frame);
             self.board.receive(frame);
             self.witness.look_at_decisions(&self.board);
         }

@@ -12,6 +12,8 @@ use zygote_sim::{Board, Device, Stuck};
 pub trait Subject {
     /// Virtual time.
     fn now(&self) -> Micros;
+    /// Its boot id, as far as that can be seen.
+    fn boot(&self) -> Option<u32>;
     /// The physics, as they truly are.
     fn plant(&self) -> &Plant;
     /// The physics, to break something.
@@ -44,6 +46,10 @@ pub trait Subject {
 impl Subject for Board {
     fn now(&self) -> Micros {
         Board::now(self)
+    }
+
+    fn boot(&self) -> Option<u32> {
+        Some(Board::boot(self))
     }
 
     fn plant(&self) -> &Plant {
@@ -104,6 +110,10 @@ impl Subject for Board {
 impl Subject for EmulatedBoard {
     fn now(&self) -> Micros {
         EmulatedBoard::now(self)
+    }
+
+    fn boot(&self) -> Option<u32> {
+        self.snapshot().map(|snapshot| snapshot.boot)
     }
 
     fn plant(&self) -> &Plant {

@@ -44,6 +44,8 @@ pub struct HingeTruth {
     pub driven_before: Vec<usize>,
     /// How often its step began to move.
     pub starts: u32,
+    /// Times in which its heater was powered.
+    pub heated: Vec<Span>,
     /// The highest temperature of its foil, °C, and when that was.
     pub hottest: Option<(f64, Micros)>,
     after: Vec<usize>,
@@ -112,6 +114,7 @@ impl Witness {
                 driven_at: None,
                 driven_before: Vec::new(),
                 starts: 0,
+                heated: Vec::new(),
                 hottest: None,
                 after: step.after.clone(),
                 state: StepState::Waiting,
@@ -153,14 +156,17 @@ impl Witness {
                 note(&mut self.unheard, span);
             }
         }
-        self.look_at_hinges(board);
+        self.look_at_hinges(span, board);
     }
 
-    fn look_at_hinges(&mut self, board: &impl Subject) {
+    fn look_at_hinges(&mut self, span: Span, board: &impl Subject) {
         let (now, plant) = (board.now(), board.plant());
         for hinge in &mut self.hinges {
             let angle = match hinge.kind {
                 Kind::Sma => plant.sma_hinges().get(hinge.channel).map(|sma| {
+                    if span.from < span.to && sma.heater_w() > 0.0 {
+                        note(&mut hinge.heated, span);
+                    }
                     let foil_c = sma.temperature_c();
                     if hinge.hottest.is_none_or(|(hottest_c, _)| foil_c > hottest_c) {
                         hinge.hottest = Some((foil_c, now));

@@ -155,3 +155,107 @@ impl Hash for Outbox {
         (self.window.len(), self.most, self.oldest, self.out, self.gone_back, self.heard).hash(state);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Before a round trip was measured, a packet goes out again after this time.
+    const TIMEOUT_US: u64 = 300_000;
+
+    /// An outbox with so many packets, all of which went out at 0.
+    fn out(packets: u8) -> Outbox {
+        let mut outbox = Outbox::new();
+        for byte in 0..packets {
+            outbox.push(Payload::from_slice(&[byte; 2]).unwrap()).unwrap();
+        }
+        assert_eq!(say(&mut outbox, 0), packets);
+        outbox
+    }
+
+    /// How many packets go out at a time. They go out in order, each under its number.
+    fn say(outbox: &mut Outbox, now: u64) -> u8 {
+        let mut said = 0;
+        while let Some((seq, payload)) = outbox.next(Micros(now)) {
+            assert_eq!(payload, [seq; 2]);
+            said += 1;
+        }
+        said
+    }
+
+    #[test]
+    fn an_ack_that_tells_nothing_changes_nothing() {
+        let (mut outbox, mut round_trip) = (out(3), RoundTrip::new());
+        outbox.go_back_on_request(Micros(10));
+        assert_eq!(say(&mut outbox, 10), 3);
+        for ack in [0, 4, 5, u8::MAX] {
+            outbox.acknowledged(ack, Micros(20), &mut round_trip);
+            assert_eq!((outbox.room(), outbox.totals()), (WINDOW - 3, (3, 0)), "ack {ack}");
+            assert_eq!(outbox.deadline(&round_trip), Some(Micros(10 + TIMEOUT_US)), "ack {ack}");
+        }
+        outbox.go_back_on_request(Micros(20));
+        assert_eq!(say(&mut outbox, 20), 0, "the request still means the same loss");
+        outbox.acknowledged(3, Micros(30), &mut round_trip);
+        assert_eq!((outbox.is_empty(), outbox.totals()), (true, (3, 6)));
+    }
+
+    #[test]
+    fn an_ack_of_some_gives_the_rest_another_timeout() {
+        let (mut outbox, mut round_trip) = (out(3), RoundTrip::new());
+        outbox.acknowledged(2, Micros(80_000), &mut round_trip);
+        assert_eq!((outbox.room(), say(&mut outbox, 80_000)), (WINDOW - 1, 0));
+        // Twice 80 ms: a deviation of 40, then of 30.
+        assert_eq!(outbox.deadline(&round_trip), Some(Micros(80_000 + 80_000 + 4 * 30_000)));
+    }
+
+    #[test]
+    fn the_ack_of_a_repetition_measures_no_round_trip() {
+        let (mut outbox, mut round_trip) = (out(1), RoundTrip::new());
+        outbox.go_back_on_request(Micros(10));
+        assert_eq!(say(&mut outbox, 10), 1);
+        outbox.acknowledged(1, Micros(20), &mut round_trip);
+        assert_eq!(round_trip.deadline(Micros(0)), Micros(TIMEOUT_US));
+    }
+
+    #[test]
+    fn one_loss_is_repeated_once_and_again_when_more_requests_come_than_it_explains() {
+        let mut outbox = out(3);
+        // Of three packets the first was lost: the other two, and then the noise that damaged the repetition, ask for it.
+        for (request, repeated) in [(1, 3), (2, 0), (3, 0), (4, 3), (5, 0)] {
+            outbox.go_back_on_request(Micros(request));
+            assert_eq!(say(&mut outbox, request), repeated, "request {request}");
+        }
+        assert_eq!(outbox.totals(), (6, 0));
+    }
+
+    #[test]
+    fn at_its_deadline_everything_goes_out_again_and_not_before() {
+        let (mut outbox, mut round_trip) = (out(3), RoundTrip::new());
+        assert_eq!(outbox.next_time(Micros(5), &round_trip), Some(Micros(TIMEOUT_US)));
+        outbox.check_timeout(Micros(TIMEOUT_US - 1), &mut round_trip);
+        assert_eq!(say(&mut outbox, TIMEOUT_US - 1), 0);
+        outbox.check_timeout(Micros(TIMEOUT_US), &mut round_trip);
+        assert_eq!(outbox.next_time(Micros(TIMEOUT_US), &round_trip), Some(Micros(TIMEOUT_US)), "at once");
+        assert_eq!(say(&mut outbox, TIMEOUT_US), 3);
+        assert_eq!(
+            outbox.next_time(Micros(TIMEOUT_US), &round_trip),
+            Some(Micros(3 * TIMEOUT_US)),
+            "twice as long"
+        );
+    }
+
+    #[test]
+    fn what_waits_to_be_repeated_cannot_time_out() {
+        let (mut outbox, mut round_trip) = (out(1), RoundTrip::new());
+        outbox.go_back_on_request(Micros(10));
+        outbox.check_timeout(Micros(9 * TIMEOUT_US), &mut round_trip);
+        assert_eq!(say(&mut outbox, 9 * TIMEOUT_US), 1);
+        assert_eq!(outbox.deadline(&round_trip), Some(Micros(10 * TIMEOUT_US)), "its timeout hasn't doubled");
+    }
+
+    #[test]
+    fn an_empty_one_has_nothing_to_send() {
+        let (mut outbox, round_trip) = (out(0), RoundTrip::new());
+        assert_eq!((outbox.next_time(Micros(5), &round_trip), say(&mut outbox, 5)), (None, 0));
+    }
+}

@@ -44,3 +44,42 @@ impl RoundTrip {
         Micros(sent.0.saturating_add(self.timeout_us()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_timeout_is_the_smoothed_time_and_four_times_its_deviation() {
+        let mut round_trip = RoundTrip::new();
+        assert_eq!(round_trip.deadline(Micros(7)), Micros(INITIAL_US + 7), "nothing was measured");
+        // By hand, from RFC 6298, 2.2 and 2.3, with gains of 1/8 and 1/4.
+        for (sample, timeout) in
+            [(80_000, 80_000 + 4 * 40_000), (160_000, 90_000 + 4 * 50_000), (10_000, 80_000 + 4 * 57_500)]
+        {
+            round_trip.measured(sample);
+            assert_eq!(round_trip.deadline(Micros(0)), Micros(timeout), "after {sample} us");
+        }
+    }
+
+    #[test]
+    fn the_timeout_keeps_its_bounds() {
+        let mut round_trip = RoundTrip::new();
+        round_trip.measured(10);
+        assert_eq!(round_trip.deadline(Micros(0)), Micros(SHORTEST_US));
+        round_trip.measured(9_000_000);
+        assert_eq!(round_trip.deadline(Micros(0)), Micros(LONGEST_US));
+    }
+
+    #[test]
+    fn every_timeout_doubles_the_next_up_to_the_longest_until_something_is_measured() {
+        let mut round_trip = RoundTrip::new();
+        round_trip.measured(10_000);
+        for timeout in [60_000, 120_000, 240_000, 480_000, 960_000, 1_000_000, 1_000_000] {
+            round_trip.timed_out();
+            assert_eq!(round_trip.deadline(Micros(0)), Micros(timeout));
+        }
+        round_trip.measured(10_000);
+        assert_eq!(round_trip.deadline(Micros(0)), Micros(SHORTEST_US));
+    }
+}

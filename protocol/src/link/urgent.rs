@@ -71,3 +71,64 @@ impl Hash for UrgentBox {
         (self.waiting.len(), self.next_seq).hash(state);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Before a round trip was measured, a message goes out again after this time.
+    const TIMEOUT_US: u64 = 300_000;
+
+    fn full() -> UrgentBox {
+        let mut urgent = UrgentBox::new();
+        for byte in 0..4 {
+            urgent.push(Payload::from_slice(&[byte]).unwrap()).unwrap();
+        }
+        assert_eq!(urgent.push(Payload::new()), Err(SendError::Full));
+        urgent
+    }
+
+    #[test]
+    fn the_oldest_goes_out_until_it_is_acknowledged() {
+        let (mut urgent, round_trip) = (full(), RoundTrip::new());
+        let payload: &[u8] = &[0];
+        assert_eq!(urgent.next_time(Micros(5), &round_trip), Some(Micros(5)));
+        assert_eq!(urgent.next(Micros(5), &round_trip), Some((0, payload)));
+        assert_eq!(urgent.next_time(Micros(6), &round_trip), Some(Micros(5 + TIMEOUT_US)));
+        assert_eq!(urgent.next(Micros(4 + TIMEOUT_US), &round_trip), None);
+        assert_eq!(urgent.next(Micros(5 + TIMEOUT_US), &round_trip), Some((0, payload)));
+        urgent.acknowledged(1);
+        assert_eq!(
+            urgent.next(Micros(9 * TIMEOUT_US), &round_trip),
+            Some((0, payload)),
+            "not the one acknowledged"
+        );
+    }
+
+    #[test]
+    fn acknowledged_ones_make_way_for_the_next() {
+        let (mut urgent, round_trip) = (full(), RoundTrip::new());
+        for byte in 0..4 {
+            assert!(!urgent.is_empty());
+            assert_eq!(urgent.next(Micros(0), &round_trip), Some((byte, [byte].as_slice())));
+            urgent.acknowledged(byte);
+        }
+        assert!(urgent.is_empty());
+        assert_eq!(
+            (urgent.next_time(Micros(0), &round_trip), urgent.next(Micros(0), &round_trip)),
+            (None, None)
+        );
+    }
+
+    #[test]
+    fn numbers_go_on_after_a_clear_and_go_round() {
+        let (mut urgent, round_trip) = (full(), RoundTrip::new());
+        urgent.clear();
+        assert!(urgent.is_empty());
+        for seq in (4..=u8::MAX).chain(0..4) {
+            urgent.push(Payload::new()).unwrap();
+            assert_eq!(urgent.next(Micros(0), &round_trip), Some((seq, [].as_slice())));
+            urgent.acknowledged(seq);
+        }
+    }
+}

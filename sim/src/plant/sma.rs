@@ -161,6 +161,8 @@ pub struct SmaHinge {
     /// Share of the way from start to end stop, 0 to 1. One-way memory: it never falls.
     travel: f64,
     jammed: bool,
+    /// Power of its heater in the latest step.
+    heater_w: f64,
     /// What is left of the heater's resistance: the configured one, a short, or none that conducts.
     heater_ohm: f64,
     switch_stuck_on: bool,
@@ -184,6 +186,7 @@ impl SmaHinge {
             nodes,
             travel: 0.0,
             jammed: false,
+            heater_w: 0.0,
             heater_ohm: config.heater_ohm,
             switch_stuck_on: false,
             thermistor: Thermistor::new(config.thermistor, ambient_c),
@@ -222,9 +225,15 @@ impl SmaHinge {
         share / self.heater_ohm
     }
 
+    /// Power of its heater in the latest step.
+    pub fn heater_w(&self) -> f64 {
+        self.heater_w
+    }
+
     /// Heats with `power_w` for `dt_s` by the midpoint rule, second order. It moves heat between the nodes
     /// without making or losing any, whatever the step.
     pub(super) fn advance(&mut self, dt_s: f64, power_w: f64, ambient_c: f64) {
+        self.heater_w = power_w;
         let start = self.nodes;
         // The temperatures half-way only say how much heat flows, so a tangent will do for them.
         let (film_w, foil_w) = self.flows_w(start.film_c, start.foil_c, power_w, ambient_c);

@@ -3,7 +3,7 @@
 use zygote_protocol::{
     Action, CentiCelsius, Channels, Command, Event, Fault, Heat, Hello, HelloReply, Identity, Limits, Link,
     MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Release, Reply, Report, Request, ResetCause,
-    Response, Step, StepState, Telemetry, Turn, Urgent, decode_payload, program_crc,
+    Response, Step, StepState, Telemetry, Turn, Urgent, decode_payload, granted_session, program_crc,
 };
 use zygote_sim::Board;
 use zygote_sim::plant::{Config, ServoConfig, SmaConfig, SpringConfig};
@@ -85,6 +85,8 @@ pub(crate) struct Host {
     responses: Vec<Response>,
     next_id: u16,
     identity: Option<Identity>,
+    /// Every byte that it ever sent.
+    pub(crate) said: Vec<u8>,
 }
 
 impl Host {
@@ -102,16 +104,17 @@ impl Host {
             responses: Vec::new(),
             next_id: 0,
             identity: None,
+            said: Vec::new(),
         };
         host.connect(77);
         host
     }
 
-    /// Opens a session.
+    /// Opens a session: asks for this number.
     pub(crate) fn connect(&mut self, session: u32) {
         self.link.send_hello(session, &Hello::ours()).unwrap();
         self.exchange();
-        self.link.open(session, self.board.now());
+        self.link.open(granted_session(session, self.boot()), self.board.now());
     }
 
     /// Why the MCU says that it started.
@@ -134,6 +137,7 @@ impl Host {
                 if length == 0 {
                     break;
                 }
+                self.said.extend_from_slice(&frame[..length]);
                 for _ in 0..if self.connected { self.copies } else { 0 } {
                     self.board.receive(&frame[..length]);
                 }

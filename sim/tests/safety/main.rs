@@ -2,5 +2,6 @@
 //! temperatures and by the outputs, not by what the firmware says.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on fails")]
 
+mod edges;
 mod host;
 mod rules;

@@ -196,8 +196,8 @@ fn s6_a_loose_thermistor_is_found_while_the_true_temperature_is_still_harmless()
 fn s6_a_mosfet_that_sticks_opens_the_main_switch_before_the_hinge_is_hot() {
     let mut host = Host::new(&plant());
     host.board.plant_mut().inject(Broken::MosfetStuckOn(2)).unwrap();
-    // Hinge 2 waits for hinge 0, and yet it gets warm.
-    host.run(&[heat(0, &[]), heat(2, &[0])]);
+    // Hinge 2 waits for hinge 0, and yet it gets warm; while a servo is held, current tells nothing.
+    host.run(&[turn(10, &[]), heat(0, &[0]), heat(2, &[1])]);
     host.pass_until(Millis(10_000), |host| host.all_off());
     assert_eq!(fault(&host), FaultCode::UnexpectedHeat);
     assert_eq!(host.board.core().fault().unwrap().channel, Some(2));
@@ -205,6 +205,18 @@ fn s6_a_mosfet_that_sticks_opens_the_main_switch_before_the_hinge_is_hot() {
     let stuck = &host.board.plant().sma_hinges()[2];
     assert!(stuck.temperature_c() < 60.0, "{} °C", stuck.temperature_c());
     assert!(host.board.plant().supply_a() < 0.001, "nothing flows behind the open main switch");
+}
+
+#[test]
+fn s6_s7_current_that_nobody_planned_turns_everything_off_long_before_it_is_felt() {
+    for broken in [Broken::MosfetStuckOn(2), Broken::HeaterShorted { channel: 0, ohm: 12.0 }] {
+        let mut host = warm_hinge();
+        host.board.plant_mut().inject(broken).unwrap();
+        let off = host.pass_until(Millis(300), |host| host.all_off());
+        assert!(off <= Millis(260), "{broken:?}: {off}");
+        assert_eq!(fault(&host), FaultCode::UnplannedCurrent, "{broken:?}");
+        assert!(host.board.plant().sma_hinges()[2].temperature_c() < 30.0, "{broken:?}");
+    }
 }
 
 #[test]
@@ -495,9 +507,10 @@ fn s6_a_thermistor_that_comes_off_turns_its_heater_off_within_a_tenth_of_a_secon
 #[test]
 fn s6_a_mosfet_that_sticks_while_its_hinge_cools_is_cut_by_the_main_switch() {
     let mut host = Host::new(&plant());
-    host.run(&[heat(0, &[])]);
+    // While a servo is held, current tells nothing.
+    host.run(&[turn(10, &[]), heat(0, &[0])]);
     host.pass_until(Millis(30_000), |host| {
-        host.events.iter().any(|event| matches!(event.kind, EventKind::StepOpened { .. }))
+        host.events.iter().any(|event| matches!(event.kind, EventKind::StepOpened { step: 1 }))
     });
     host.board.plant_mut().inject(Broken::MosfetStuckOn(0)).unwrap();
     host.pass_until(Millis(12_000), |host| host.board.core().state() == State::Safe);
@@ -551,11 +564,16 @@ fn s9_a_fault_is_told_after_the_reset_that_followed_it_and_forgotten_when_power_
 }
 
 #[test]
-fn s11_a_session_that_a_reset_ended_is_not_opened_again_by_a_hello_that_comes_late() {
-    let mut host = warm_hinge();
-    host.board.reset(ResetCause::Watchdog);
-    host.connect(77);
-    assert!(host.board.core().link_session().is_none(), "it opened the session again");
-    host.connect(78);
-    assert_eq!(host.board.core().link_session(), Some(78));
+fn s11_a_whole_session_that_is_said_again_after_a_reset_moves_nothing() {
+    for cause in [ResetCause::Power, ResetCause::Watchdog] {
+        let mut host = warm_hinge();
+        let replayed = host.said.clone();
+        host.board.reset(cause);
+        host.board.receive(&replayed);
+        host.board.transmit(&mut Vec::new());
+        let core = host.board.core();
+        assert_eq!((core.state(), core.step_states().count()), (State::Idle, 0), "{cause:?}");
+        host.connect(78);
+        only_cools(&mut host);
+    }
 }

@@ -2,7 +2,6 @@
 //! trial, to the bit, on every machine.
 
 mod hinges;
-mod known;
 mod mishaps;
 mod summary;
 mod trials;

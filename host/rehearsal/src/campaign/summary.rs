@@ -1,6 +1,6 @@
 //! What a campaign amounts to: what happened how often, what broke a rule, and the extremes.
 
-use super::{fingerprint, known};
+use super::fingerprint;
 use crate::judge::{Breach, seconds};
 use crate::run::{Ending, Rehearsed, Trial};
 use std::collections::BTreeMap;
@@ -36,11 +36,9 @@ pub struct Summary {
     pub endings: BTreeMap<&'static str, u64>,
     /// First faults of the MCU, by code.
     pub faults: BTreeMap<u16, u64>,
-    /// Trials that broke a rule of which that is known, by what is known.
-    pub known: BTreeMap<&'static str, u64>,
     /// How far above its step's limit a foil got at most without a fault of its own thermistor or heater, K.
     pub most_over_limit_k: Option<f64>,
-    /// Trials that broke any other rule.
+    /// Trials that broke a rule.
     pub failures: Vec<Failure>,
 }
 
@@ -74,17 +72,7 @@ impl Summary {
             *self.faults.entry(fault.code.number()).or_default() += 1;
         }
         self.note_heat(trial, rehearsed);
-        let (gaps, new): (Vec<_>, Vec<_>) = breaches
-            .into_iter()
-            .map(|breach| (known::gap(rehearsed, &breach), breach))
-            .partition(|(gap, _)| gap.is_some());
-        let mut gaps: Vec<_> = gaps.into_iter().filter_map(|(gap, _)| gap).collect();
-        gaps.dedup();
-        for gap in gaps {
-            *self.known.entry(gap).or_default() += 1;
-        }
-        if !new.is_empty() {
-            let breaches = new.into_iter().map(|(_, breach)| breach).collect();
+        if !breaches.is_empty() {
             self.failures.push(Failure { number, fingerprint: fingerprint(rehearsed), breaches });
         }
     }
@@ -114,9 +102,6 @@ impl Summary {
         }
         for (code, count) in other.faults {
             *self.faults.entry(code).or_default() += count;
-        }
-        for (gap, count) in other.known {
-            *self.known.entry(gap).or_default() += count;
         }
         self.most_over_limit_k =
             [self.most_over_limit_k, other.most_over_limit_k].into_iter().flatten().reduce(f64::max);
@@ -149,14 +134,9 @@ impl fmt::Display for Summary {
             "faults of the MCU",
             self.faults.iter().map(|(code, count)| (format!("F{code:02}"), *count)).collect(),
         )?;
-        list(
-            f,
-            "rules known not to hold",
-            self.known.iter().map(|(gap, count)| ((*gap).to_owned(), *count)).collect(),
-        )?;
         if let Some(over_k) = self.most_over_limit_k {
             writeln!(f, "undisturbed foils stayed at least {:.1} K below their step's limit", -over_k)?;
         }
-        write!(f, "{} runs in which another rule didn't hold", self.failures.len())
+        write!(f, "{} runs in which a rule didn't hold", self.failures.len())
     }
 }

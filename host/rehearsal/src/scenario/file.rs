@@ -176,6 +176,8 @@ pub(super) struct ExpectTable {
     pub(super) says: Option<String>,
     /// No current through any heater after this time from `since`.
     pub(super) heaters_off_within: Option<Seconds>,
+    /// The hinge whose heater `heaters_off_within` is about; all of them unless set.
+    pub(super) heater_of: Option<usize>,
     /// No current out of the supply after this time from `since`.
     pub(super) off_within: Option<Seconds>,
     #[serde(default)]

@@ -127,9 +127,16 @@ fn times(expect: &ExpectTable, trial: &Trial, rehearsed: &Rehearsed) -> Vec<Row>
         let took = Micros(Witness::over_by(spans, since).since(since));
         within.map(|within| row_of_time(what, name, within, took))
     };
+    let (heaters, heated) = match expect.heater_of {
+        None => ("heaters off".to_owned(), &witness.heated),
+        Some(hinge) => {
+            let truth = witness.hinges.iter().find(|truth| truth.hinge == hinge);
+            (format!("heater of hinge {hinge} off"), truth.map_or(&witness.heated, |truth| &truth.heated))
+        }
+    };
     let knows = Micros(rehearsed.ended_at.since(cause));
     [
-        off("heaters off", expect.heaters_off_within, &witness.heated),
+        off(&heaters, expect.heaters_off_within, heated),
         off("all off", expect.off_within, &witness.energised),
         expect.host_knows_within.map(|within| row_of_time("host knows", "cause", within, knows)),
     ]

@@ -5,7 +5,7 @@ use zygote_emulator::{EmulatedBoard, Image};
 use zygote_protocol::{
     Action, CentiCelsius, Command, Event, Fault, Heat, Hello, HelloReply, Identity, Limits, Link,
     MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Reply, Report, Request, Response, Snapshot, State, Step,
-    Telemetry, Urgent, decode_payload, program_crc,
+    Telemetry, Urgent, decode_payload, granted_session, program_crc,
 };
 use zygote_sim::plant::{Config, SmaConfig};
 
@@ -100,7 +100,8 @@ impl Host {
         self.link = Link::new(self.board.now());
         self.link.send_hello(session, &Hello::ours()).unwrap();
         self.pass_until(Millis(100), |host| host.identity.is_some());
-        self.link.open(session, self.board.now());
+        let boot = self.identity.as_ref().unwrap().boot;
+        self.link.open(granted_session(session, boot), self.board.now());
     }
 
     fn exchange(&mut self) {
