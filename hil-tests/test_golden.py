@@ -9,7 +9,7 @@ from zygote_wire import cobs, codes, commands, frames, postcard, reports
 from zygote_wire.codes import Faulted, Refused
 from zygote_wire.commands import Heat, Release, Step, Turn
 from zygote_wire.frames import Frame, Kind
-from zygote_wire.hello import SCHEMA, Hello, Limits
+from zygote_wire.hello import SCHEMA, Hello, Limits, Settings
 
 BOOK = Path(__file__).parent.parent / "docs/src"
 PAGE = (BOOK / "protocol.md").read_text()
@@ -19,6 +19,7 @@ STATUS = reports.Status(1_000_000, reports.State.SAFE, 7, FAULT, opened=3, heate
 FROZEN = reports.Fault(Faulted.SENSOR_FROZEN, at=5_000_000, step=3, channel=2, value=6_000, limit=1_500)
 SNAPSHOT = reports.Snapshot(9, 5_000_000, reports.State.SAFE, 7, FROZEN, steps=5, states=(0x4A, 0x01), session=3)
 LIMITS = Limits(max_temperature=12_000, max_on=30_000, min_rest=500, supply=2_000, link_timeout=1_000)
+SETTINGS = Settings(LIMITS, shortest_pulse_us=500, longest_pulse_us=2_500)
 HEAT = Heat(3, 9_500, 1_000, 20_000, 12_000, 4_500, 500, 500, 3_000, 200)
 STEPS = (
     Step(300, (0, 2), HEAT),
@@ -59,6 +60,8 @@ MESSAGES = [
     (commands.Request, request(commands.Disarm())),
     (commands.Request, request(commands.Clear())),
     (commands.Request, request(commands.LastRun())),
+    (commands.Request, request(commands.AskSettings())),
+    (commands.Request, request(commands.Configure(SETTINGS))),
     (commands.Urgent, commands.Urgent.STOP),
     (reports.Report, response(reports.Done())),
     (reports.Report, response(STATUS)),
@@ -74,6 +77,7 @@ MESSAGES = [
     ),
     (reports.Report, response(reports.LastRun(None))),
     (reports.Report, response(reports.LastRun(SNAPSHOT))),
+    (reports.Report, response(reports.SettingsReport(300, SETTINGS, SETTINGS))),
     (reports.Report, event(reports.Entered(reports.State.RUNNING))),
     (reports.Report, event(reports.StepStarted(1))),
     (reports.Report, event(reports.StepOpened(1))),

@@ -100,6 +100,7 @@ impl Rig {
                 supply: Millivolts(5_000),
                 current: Milliamps(0),
                 stop_pressed: self.stop_pressed,
+                servos_lost: false,
             };
             self.core.tick(self.now, &inputs);
             self.drain();

@@ -27,6 +27,8 @@ class Refused(enum.IntEnum):
     STOP_PRESSED = 18
     SERVO_RANGE = 19
     UNREADABLE = 20
+    NOT_STORED = 21
+    STORING = 22
 
 
 class Faulted(enum.IntEnum):
@@ -48,3 +50,4 @@ class Faulted(enum.IntEnum):
     SENSOR_FROZEN = 13
     NO_COOLING = 14
     UNPLANNED_CURRENT = 15
+    SERVOS_LOST = 16

@@ -6,7 +6,7 @@ import zlib
 from collections.abc import Iterable
 
 from zygote_wire import postcard
-from zygote_wire.hello import Limits
+from zygote_wire.hello import Limits, Settings
 from zygote_wire.postcard import I16, U16, U32, Text
 
 STEPS_PER_COMMAND = 4
@@ -131,7 +131,32 @@ class LastRun:
     """What were you doing before you were reset?"""
 
 
-Command = Status | Progress | Upload | Steps | Commit | Arm | Start | Disarm | Clear | LastRun
+@dataclasses.dataclass(frozen=True)
+class AskSettings:
+    """Which limits are in force, and which are compiled in?"""
+
+
+@dataclasses.dataclass(frozen=True)
+class Configure:
+    """Keep these settings for good."""
+
+    settings: Settings
+
+
+Command = (
+    Status
+    | Progress
+    | Upload
+    | Steps
+    | Commit
+    | Arm
+    | Start
+    | Disarm
+    | Clear
+    | LastRun
+    | AskSettings
+    | Configure
+)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Annotated
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
 VERSION = 3
-SCHEMA = 0x5A8D90F8
+SCHEMA = 0x895D4743
 
 
 class ResetCause(enum.IntEnum):
@@ -51,6 +51,15 @@ class Limits:
     min_rest: U32
     supply: U32
     link_timeout: U32
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    """What a board keeps over power cycles."""
+
+    ceiling: Limits
+    shortest_pulse_us: U16
+    longest_pulse_us: U16
 
 
 @dataclasses.dataclass(frozen=True)

@@ -4,6 +4,7 @@ import dataclasses
 import enum
 
 from zygote_wire.codes import Faulted, Refused
+from zygote_wire.hello import Settings
 from zygote_wire.postcard import I16, I64, U8, U16, U32, U64
 
 
@@ -92,7 +93,16 @@ class LastRun:
     snapshot: Snapshot | None
 
 
-Reply = Done | Status | Progress | LastRun
+@dataclasses.dataclass(frozen=True)
+class SettingsReport:
+    """What holds, and the most that can be set."""
+
+    at: U64
+    in_force: Settings
+    compiled: Settings
+
+
+Reply = Done | Status | Progress | LastRun | SettingsReport
 
 
 @dataclasses.dataclass(frozen=True)

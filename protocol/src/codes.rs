@@ -111,6 +111,10 @@ codes! {
             "at: step; nearest bound; pulse, in us", AS_BEFORE, "mend the rig file";
         Unreadable = 21, "the command passed its checksum but can't be read: of another version, or a field too long",
             "0; 0", AS_BEFORE, "use host and firmware of one version";
+        NotStored = 22, "the settings can't be stored: the flash doesn't take them",
+            "", AS_BEFORE, "try again; if that doesn't help, the flash is worn: replace the board";
+        Storing = 23, "settings are being stored",
+            "", AS_BEFORE, "wait for their answer";
     }
 }
 
@@ -165,5 +169,8 @@ codes! {
         UnplannedCurrent = 16, "the supply gives more current than what is on should draw",
             "current and planned current, in mA; acts 25 % and 100 mA above it for 250 ms, while no servo is driven", "not of a hinge that is heated unasked",
             "keep the supply off; look for a shorted MOSFET or heater; measure the currents of the rig file";
+        ServosLost = 17, "the servo driver doesn't answer, or lost its settings",
+            "0 and 0", "not of the servos: they are limp",
+            "check the driver's supply, its bus and its pull-ups";
     }
 }

@@ -12,8 +12,10 @@
 //! | `Disarm` | Armed, Running | everything off; Loaded |
 //! | `Clear` | Safe | a person has looked; Idle |
 //! | `LastRun` | any | none |
+//! | `Settings` | any | none |
+//! | `Configure` | any but Armed, Running | settings are written down for good, then in force |
 
-use crate::{Fault, Limits, Micros, Millis, RefusalCode, Snapshot, Step};
+use crate::{Fault, Limits, Micros, Millis, RefusalCode, Settings, SettingsReport, Snapshot, Step};
 use heapless::{String, Vec};
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
@@ -90,6 +92,10 @@ pub enum Command {
     Clear,
     /// What were you doing before you were reset? Answered by [`Reply::LastRun`].
     LastRun,
+    /// Which limits are in force, and which are compiled in? Answered by [`Reply::Settings`].
+    Settings,
+    /// Keep these settings for good. Answered once they are stored.
+    Configure(Settings),
 }
 
 /// The answer to a [`Request`].
@@ -117,6 +123,8 @@ pub enum Reply {
     },
     /// To [`Command::LastRun`]; `None` after power was off, or where nothing had happened.
     LastRun(Option<Snapshot>),
+    /// To [`Command::Settings`].
+    Settings(SettingsReport),
 }
 
 /// Why a command was refused; it then changed nothing.

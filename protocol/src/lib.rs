@@ -24,6 +24,7 @@ mod limits;
 mod link;
 mod report;
 pub mod schema;
+mod settings;
 mod snapshot;
 mod step;
 mod units;
@@ -41,6 +42,7 @@ pub use hello::{
 pub use limits::{LimitName, Limits};
 pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};
 pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};
+pub use settings::{Settings, SettingsReport, TooLax};
 pub use snapshot::{RETAINED_WORDS, Retained, SNAPSHOT_STEPS, Snapshot};
 pub use step::{Action, Heat, MAX_AFTER, Release, Step, Turn, program_crc};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis, Millivolts};

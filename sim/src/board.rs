@@ -11,6 +11,7 @@ use core::time::Duration;
 use zygote_core::{Config, Core, Inputs, NTC_10K};
 use zygote_protocol::{
     CentiCelsius, Channels, Identity, Limits, MAX_ENCODED, Micros, Milliamps, Millis, ResetCause, Retained,
+    Settings,
 };
 
 /// Time between two control ticks: as slow as the core allows, to be fast.
@@ -56,6 +57,8 @@ pub struct Board {
     next_tick: Micros,
     stop_pressed: bool,
     stuck: Option<(Stuck, Micros)>,
+    /// Settings that outlive power.
+    kept: Option<Settings>,
     /// Memory that a reset leaves alone, and the core's changes that it holds.
     retained: (u32, Retained),
 }
@@ -77,6 +80,7 @@ impl Board {
             next_tick: Micros(0),
             stop_pressed: false,
             stuck: None,
+            kept: None,
             retained: (0, Retained::NOTHING),
         })
     }
@@ -117,6 +121,9 @@ impl Board {
         self.stuck = None;
         let before = if cause == ResetCause::Power { None } else { self.retained.1.recall() };
         *self.core = Core::new(config(self.channels, self.boot, cause), self.now, before);
+        if let Some(settings) = &self.kept {
+            self.core.restore(settings);
+        }
         self.retained = (0, Retained::NOTHING);
         self.next_tick = self.now.plus(TICK);
     }
@@ -139,6 +146,10 @@ impl Board {
         // A stuck program leaves them in the line's buffer, which runs over.
         if self.stuck.is_none() {
             self.core.handle_bytes(self.now, bytes);
+            if let Some(settings) = self.core.to_store() {
+                self.kept = Some(*settings);
+                self.core.stored(true);
+            }
             self.retain();
         }
     }
@@ -207,6 +218,7 @@ impl Board {
                 supply: readings.supply,
                 current: readings.current,
                 stop_pressed: self.stop_pressed,
+                servos_lost: false,
             };
             self.core.tick(self.now, &inputs);
             self.retain();

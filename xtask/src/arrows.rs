@@ -41,7 +41,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-emulator",
         ],
     ),
-    ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol"]),
+    ("zygote-parts", &["zygote-core", "zygote-protocol"]),
+    ("zygote-stm32f4", &["zygote-core", "zygote-parts", "zygote-protocol"]),
+    ("zygote-nucleo-f446re", &["zygote-core", "zygote-protocol", "zygote-stm32f4"]),
+    ("zygote-stm32f4-discovery", &["zygote-core", "zygote-protocol", "zygote-stm32f4"]),
     ("xtask", &[]),
 ];
 
@@ -51,7 +54,7 @@ type Arrow = (String, String);
 /// Checks the host workspace and every board.
 pub(crate) fn run() -> Result<()> {
     let mut manifests = vec![tools::root().join("Cargo.toml")];
-    manifests.extend(firmware::boards()?.iter().map(|board| board.join("Cargo.toml")));
+    manifests.extend(firmware::outside()?.iter().map(|folder| folder.join("Cargo.toml")));
     let (mut crates, mut arrows) = (BTreeSet::new(), BTreeSet::new());
     for manifest in manifests {
         let mut metadata = cargo();

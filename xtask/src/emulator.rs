@@ -8,7 +8,7 @@ const BOARD: &str = "nucleo-f446re";
 
 /// Runs them on the program that is there.
 pub(crate) fn run() -> Result<()> {
-    let program = firmware::elf(BOARD);
+    let program = firmware::elf_of(BOARD);
     ensure!(program.is_file(), "{} is missing: cargo xtask firmware", program.display());
     let nextest = tools::from_crates_io("cargo-nextest", "^0.9", &[])?;
     let mut command = tools::command(nextest);

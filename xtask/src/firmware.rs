@@ -6,8 +6,9 @@
 //! Debian's compiler builds the core library from Debian's copy of its source; see
 //! `docs/decisions/0003-building-firmware-without-rustup-targets.md`.
 
-use crate::{sections, tools};
+use crate::{sections, stack, tools};
 use anyhow::{Context, Result, bail, ensure};
+use object::{Object, ObjectSection};
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -37,29 +38,53 @@ pub(crate) fn run() -> Result<()> {
         let name =
             board.file_name().and_then(|name| name.to_str()).context("a board's folder isn't UTF-8")?;
         measure(&toolchain, &board, name, BUDGET)?;
+        let elf = elf_of(name);
+        println!("  for {}", chip_of(&elf)?);
+        let bytes = fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
+        stack::check(&bytes).with_context(|| format!("{name}: a stack that overflows would be missed"))?;
     }
     let firmware = tools::root().join("firmware");
     measure(&toolchain, &firmware.join("link-size"), "link-size", LINK_BUDGET)?;
     measure(&toolchain, &firmware.join("core-figures"), "core-figures", CORE_BUDGET)
 }
 
-/// Where a program ends up.
-pub(crate) fn elf(name: &str) -> PathBuf {
-    tools::root().join("target/firmware").join(TARGET).join("release").join(format!("zygote-{name}"))
-}
-
 /// Builds what is in a folder, prints its sections, and holds it to its memory.
 fn measure(toolchain: &Toolchain, folder: &Path, name: &str, budget: sections::Budget) -> Result<()> {
-    let target_dir = tools::root().join("target/firmware");
     let mut build = toolchain.cargo();
     build.current_dir(folder).args(["build", "--release", "--locked", "--target", TARGET]);
-    tools::run(build.arg("--target-dir").arg(&target_dir))?;
+    tools::run(build.arg("--target-dir").arg(target_dir()))?;
 
-    let elf = elf(name);
+    let elf = elf_of(name);
     let bytes = fs::read(&elf).with_context(|| format!("cannot read {}", elf.display()))?;
     let sections = sections::of(&bytes).with_context(|| format!("cannot read {}", elf.display()))?;
     println!("\n{name}\n{}", sections::table(&sections, budget));
     sections::hold_to(&sections, budget).with_context(|| format!("{name} is too large"))
+}
+
+fn target_dir() -> PathBuf {
+    tools::root().join("target/firmware")
+}
+
+/// Where the program of a folder lies once it is built.
+pub(crate) fn elf_of(name: &str) -> PathBuf {
+    target_dir().join(TARGET).join("release").join(format!("zygote-{name}"))
+}
+
+/// The chip that a board's program says it is for.
+pub(crate) fn chip_of(elf: &Path) -> Result<String> {
+    let bytes = fs::read(elf).with_context(|| format!("cannot read {}", elf.display()))?;
+    let file = object::File::parse(bytes.as_slice())?;
+    let card = file.section_by_name(".zygote").context("the program names no board")?;
+    let text = std::str::from_utf8(card.data()?)?;
+    let chip = text.lines().find_map(|line| line.strip_prefix("chip="));
+    chip.map(str::to_owned).with_context(|| format!("the program names no chip: {text:?}"))
+}
+
+/// The boards, and what they share: crates outside of the host workspace.
+pub(crate) fn outside() -> Result<Vec<PathBuf>> {
+    let mut folders = boards()?;
+    folders.push(tools::root().join("firmware/stm32f4"));
+    Ok(folders)
 }
 
 /// The folders of the boards, in alphabetical order.

@@ -9,8 +9,8 @@ use anyhow::Result;
 /// Checks formatting, then lints.
 pub(crate) fn run() -> Result<()> {
     tools::run(cargo().args(["fmt", "--all", "--check"]))?;
-    for board in firmware::boards()? {
-        tools::run(cargo().args(["fmt", "--check", "--manifest-path"]).arg(board.join("Cargo.toml")))?;
+    for folder in firmware::outside()? {
+        tools::run(cargo().args(["fmt", "--check", "--manifest-path"]).arg(folder.join("Cargo.toml")))?;
     }
     tools::run(cargo().args(["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"]))
 }

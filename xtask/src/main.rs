@@ -13,8 +13,10 @@ mod hil;
 mod lint;
 mod mutants;
 mod parts;
+mod probe;
 mod python;
 mod sections;
+mod stack;
 mod tests;
 mod tools;
 
@@ -40,6 +42,8 @@ fn main() -> ExitCode {
             "fuzz" => return told(fuzz::run(options)),
             "campaign" => return told(campaign::run(options)),
             "mutants" => return told(mutants::run(options)),
+            "flash" => return told(probe::flash(options)),
+            "log" => return told(probe::log(options)),
             _ => {}
         }
     }
@@ -81,7 +85,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

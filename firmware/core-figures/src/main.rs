@@ -48,6 +48,7 @@ extern "C" fn main() -> ! {
                         supply: Millivolts(black_box(1)),
                         current: Milliamps(black_box(1)),
                         stop_pressed: black_box(false),
+                        servos_lost: false,
                     },
                 );
                 black_box(core.poll_transmit(now(), black_box(&mut out)));

@@ -18,13 +18,14 @@ use crate::io::{Inputs, Outputs};
 use crate::mode::Mode;
 use crate::program::{Program, index, refuse};
 use crate::sequencer::{Instant, Sequencer};
+use crate::settings::Keeper;
 use crate::supply_guard::SupplyGuard;
 use crate::thermal_guard::ThermalGuard;
 use crate::trip::Trip;
 use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
     Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Received,
-    RefusalCode, Report, Request, Response, Snapshot, State, StepState, Telemetry, Urgent, VERSION,
+    RefusalCode, Report, Request, Response, Settings, Snapshot, State, StepState, Telemetry, Urgent, VERSION,
     VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id, peek_versions, schema,
 };
 
@@ -44,6 +45,8 @@ pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize,
     pub(crate) sequencer: Sequencer<STEPS>,
     pub(crate) guards: [ThermalGuard; HEATERS],
     pub(crate) stop_pressed: bool,
+    servos_lost: bool,
+    pub(crate) keeper: Keeper,
     pub(crate) outputs: Outputs<HEATERS, SERVOS, SPRINGS>,
     link: Link,
     events: EventQueue,
@@ -70,6 +73,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
                 "a program has a step a channel at most, and none is streamed"
             );
         };
+        let keeper = Keeper::new(&config);
         Self {
             config,
             mode: Mode::Idle,
@@ -77,6 +81,8 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             sequencer: Sequencer::new(),
             guards: [ThermalGuard::NEW; HEATERS],
             stop_pressed: false,
+            servos_lost: false,
+            keeper,
             outputs: Outputs::OFF,
             link: Link::new(now),
             events: EventQueue::new(),
@@ -88,6 +94,21 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             supply: Millivolts(0),
             current: Milliamps(0),
         }
+    }
+
+    /// Settings that the board kept, in force as far as it allows them (S13). To be told once, after the start.
+    pub fn restore(&mut self, stored: &Settings) {
+        self.keeper.restore(&mut self.config, stored);
+    }
+
+    /// Settings that the board is to write down now, and then to say so to [`Self::stored`]; nothing is energised.
+    pub fn to_store(&self) -> Option<&Settings> {
+        self.keeper.to_store()
+    }
+
+    /// What [`Self::to_store`] gave is kept for good, or can't be.
+    pub fn stored(&mut self, is_stored: bool) {
+        self.keeper.stored(&mut self.config, is_stored);
     }
 
     /// What every actuator is to do now. To be applied after each call of the other functions.
@@ -192,6 +213,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
                 self.trip(now, Trip::new(FaultCode::SessionEnded, 0, 0));
             }
             self.events.clear();
+            self.keeper.forget_answer();
             self.link.open(session, now);
             self.openings = self.openings.wrapping_add(1);
         }
@@ -215,7 +237,10 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     /// Does what a request asks; one that can't be read is refused under the number at its front.
     fn answer(&mut self, now: Micros, request: Result<Request, Option<u16>>) {
         let (id, result) = match request {
-            Ok(Request { id, command }) => (id, handlers::handle(self, now, command)),
+            Ok(Request { id, command }) => match handlers::handle(self, now, id, command) {
+                Some(result) => (id, result),
+                None => return,
+            },
             Err(id) => (id.unwrap_or_default(), Err(refuse(RefusalCode::Unreadable, 0, 0, 0))),
         };
         let sent = self.link.send(&Report::Response(Response { id, result }));
@@ -225,6 +250,13 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     /// Writes bytes for the host into `out`, which has room for [`zygote_protocol::MAX_ENCODED`], and returns how
     /// many; 0 when nothing is due. To be called until it returns 0.
     pub fn poll_transmit(&mut self, now: Micros, out: &mut [u8]) -> usize {
+        if self.link.session().is_some()
+            && self.link.room() > 0
+            && let Some(response) = self.keeper.take_answer()
+        {
+            let sent = self.link.send(&Report::Response(response));
+            debug_assert!(sent.is_ok(), "there was room, and an answer is forgotten with its session");
+        }
         while self.link.session().is_some() && self.link.room() > ROOM_FOR_RESPONSES {
             let Some(event) = self.events.pop() else { break };
             let sent = self.link.send(&Report::Event(event));
@@ -245,6 +277,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         self.supply = inputs.supply;
         self.current = inputs.current;
         self.stop_pressed = inputs.stop_pressed;
+        self.servos_lost = inputs.servos_lost;
         self.sample(inputs);
         if self.stop_pressed && !matches!(self.mode, Mode::Safe(_)) {
             self.trip(now, Trip::new(FaultCode::StopButton, 0, 0));
@@ -290,6 +323,7 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
             return Err(Trip::new(FaultCode::LinkLost, silence, limits.link_timeout.0).at(now, None, None));
         }
         self.check_heaters(now, &limits)?;
+        self.check_servos().map_err(|trip| trip.at(now, None, None))?;
         self.check_supply(now, &limits).map_err(|trip| trip.at(now, None, None))
     }
 
@@ -298,6 +332,13 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         let planned = self.sequencer.planned(self.program.steps());
         let planned = if self.sequencer.drives_servo() { None } else { Some(planned) };
         self.supply_guard.check_planned(now, self.current, planned)
+    }
+
+    /// Servos that hold a structure let go of it when their pulses fail; nothing else may move then. A program
+    /// without servos needs no driver.
+    fn check_servos(&self) -> Result<(), Trip> {
+        let needs_servos = self.program.steps().iter().any(|step| matches!(step.action, Action::Turn(_)));
+        if self.servos_lost && needs_servos { Err(Trip::new(FaultCode::ServosLost, 0, 0)) } else { Ok(()) }
     }
 
     fn check_heaters(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {

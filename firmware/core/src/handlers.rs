@@ -4,20 +4,24 @@ use crate::core::Core;
 use crate::io::{Duty, Outputs};
 use crate::mode::Mode;
 use crate::program::refuse;
-use zygote_protocol::{Command, Limits, Micros, Millis, Refusal, RefusalCode, Reply, RigId, State, Status};
+use crate::settings::limit_number;
+use zygote_protocol::{
+    Command, Limits, Micros, Millis, Refusal, RefusalCode, Reply, RigId, Settings, State, Status,
+};
 
 /// Longest time that an arming may wait for its start.
 const MAX_LIFETIME: Millis = Millis(600_000);
 
 type Answer = Result<Reply, Refusal>;
 
-/// Does what a command asks, or refuses it and changes nothing.
+/// Does what a command asks, or refuses it and changes nothing. `None` if the answer has to wait.
 pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     core: &mut Core<H, S, R, STEPS>,
     now: Micros,
+    id: u16,
     command: Command,
-) -> Answer {
-    match command {
+) -> Option<Answer> {
+    Some(match command {
         Command::Status => Ok(Reply::Status(status(core, now))),
         Command::Progress { first } => Ok(progress(core, first)),
         Command::Upload { run, rig, steps, crc } => upload(core, now, run, rig, steps, crc),
@@ -28,7 +32,9 @@ pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS
         Command::Disarm => disarm(core, now),
         Command::Clear => clear(core, now),
         Command::LastRun => Ok(Reply::LastRun(core.before.clone())),
-    }
+        Command::Settings => Ok(core.keeper.report(now, &core.config)),
+        Command::Configure(settings) => return configure(core, id, settings).err().map(Err),
+    })
 }
 
 fn wrong_state(expected: State, got: State) -> Refusal {
@@ -118,6 +124,10 @@ fn arm<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     if core.stop_pressed {
         return Err(refuse(RefusalCode::StopPressed, 0, 0, 1));
     }
+    // Writing may halt the processor for a second.
+    if core.keeper.is_storing() {
+        return Err(refuse(RefusalCode::Storing, 0, 0, 0));
+    }
     if rig.as_str() != core.program.rig() {
         return Err(refuse(RefusalCode::RigMismatch, 0, 0, 0));
     }
@@ -133,18 +143,6 @@ fn arm<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     core.outputs = Outputs { main_switch: true, ..Outputs::OFF };
     core.enter(now, Mode::Armed { until: now.plus(lifetime), lifetime, limits });
     Ok(Reply::Done)
-}
-
-/// The place of a limit in [`Limits`].
-fn limit_number(name: zygote_protocol::LimitName) -> u16 {
-    use zygote_protocol::LimitName;
-    match name {
-        LimitName::MaxTemperature => 0,
-        LimitName::MaxOn => 1,
-        LimitName::MinRest => 2,
-        LimitName::Supply => 3,
-        LimitName::LinkTimeout => 4,
-    }
 }
 
 fn start<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
@@ -189,4 +187,16 @@ fn clear<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     }
     core.enter(now, Mode::Idle);
     Ok(Reply::Done)
+}
+
+/// Nothing may be energised: writing to flash may halt the processor for a second.
+fn configure<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
+    core: &mut Core<H, S, R, STEPS>,
+    id: u16,
+    settings: Settings,
+) -> Result<(), Refusal> {
+    if core.mode.is_energised() {
+        return Err(wrong_state(State::Idle, core.state()));
+    }
+    core.keeper.configure(id, settings)
 }

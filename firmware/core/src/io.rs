@@ -43,6 +43,8 @@ pub struct Inputs<'a> {
     pub current: Milliamps,
     /// The emergency stop button is pressed (or its wire is cut).
     pub stop_pressed: bool,
+    /// The servos don't get their pulses: their driver doesn't answer, for example.
+    pub servos_lost: bool,
 }
 
 /// What every actuator is to do from now on.

@@ -19,6 +19,7 @@ mod mode;
 mod program;
 mod sequencer;
 mod servo_mover;
+mod settings;
 mod sma_heater;
 mod spring_release;
 mod supply_guard;

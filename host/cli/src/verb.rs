@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, explain, export, fold_back, link, net, picture, plan, reconfigure,
-    rehearse, schedule, sequence, sim, table, tolerance, torque,
+    alternatives, assembly, check, deploy, explain, export, flash, fold_back, link, net, picture, plan,
+    reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -46,6 +46,10 @@ pub(crate) enum Verb {
     Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
     Explain(explain::Arguments),
+    /// Program a board with its firmware, through probe-rs
+    Flash(flash::Arguments),
+    /// Show what a board keeps over power cycles, and lower its limits
+    Settings(settings::Arguments),
     /// Serve a simulated board on a pseudo-terminal
     Sim(sim::Arguments),
 }
@@ -64,6 +68,8 @@ impl Verb {
             Self::Deploy(arguments) => deploy::run(&arguments),
             Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),
+            Self::Flash(arguments) => flash::run(&arguments),
+            Self::Settings(arguments) => settings::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),

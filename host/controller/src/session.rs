@@ -6,8 +6,8 @@ use crate::connect::{self, ConnectError, transmit};
 use crate::inbox::{Broken, Inbox, Notice};
 use std::io;
 use zygote_protocol::{
-    Command, HelloReply, Link, LinkCounters, Micros, Millis, Refusal, Reply, Request, SendError, Snapshot,
-    Status, Urgent,
+    Command, HelloReply, Link, LinkCounters, Micros, Millis, Refusal, Reply, Request, SendError, Settings,
+    SettingsReport, Snapshot, Status, Urgent,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
@@ -249,7 +249,7 @@ impl<T: Transport> Session<T> {
     pub fn status(&mut self) -> Result<Status, RequestError> {
         match self.request(Command::Status)? {
             Reply::Status(status) => Ok(status),
-            Reply::Done | Reply::Progress { .. } | Reply::LastRun(_) => {
+            Reply::Done | Reply::Progress { .. } | Reply::LastRun(_) | Reply::Settings(_) => {
                 Err(RequestError::WrongReply { command: "status" })
             }
         }
@@ -262,10 +262,31 @@ impl<T: Transport> Session<T> {
     pub fn last_run(&mut self) -> Result<Option<Snapshot>, RequestError> {
         match self.request(Command::LastRun)? {
             Reply::LastRun(snapshot) => Ok(snapshot),
-            Reply::Done | Reply::Progress { .. } | Reply::Status(_) => {
+            Reply::Done | Reply::Progress { .. } | Reply::Status(_) | Reply::Settings(_) => {
                 Err(RequestError::WrongReply { command: "last run" })
             }
         }
+    }
+
+    /// Asks which settings are in force, and which are compiled into the board.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn settings(&mut self) -> Result<SettingsReport, RequestError> {
+        match self.request(Command::Settings)? {
+            Reply::Settings(report) => Ok(report),
+            Reply::Done | Reply::Progress { .. } | Reply::Status(_) | Reply::LastRun(_) => {
+                Err(RequestError::WrongReply { command: "settings" })
+            }
+        }
+    }
+
+    /// Has the board keep these settings for good; returns once they are stored and in force.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn configure(&mut self, settings: Settings) -> Result<(), RequestError> {
+        self.request(Command::Configure(settings)).map(drop)
     }
 
     /// Opens the next session on the same line, after this one was lost.
@@ -376,5 +397,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Disarm => "disarm",
         Command::Clear => "clear",
         Command::LastRun => "last run",
+        Command::Settings => "settings",
+        Command::Configure(_) => "configure",
     }
 }

@@ -4,6 +4,12 @@ use crate::pins::CHANNELS;
 use zygote_core::{Config, NTC_10K};
 use zygote_protocol::{CentiCelsius, Identity, Limits, Milliamps, Millis, ResetCause};
 
+/// What `zygote flash` and the emulator read of the program's file; it isn't in flash.
+#[used]
+#[expect(unsafe_code, reason = "the linker script keeps the section out of the chip's memory")]
+#[unsafe(link_section = ".zygote")]
+static CARD: [u8; 39] = *b"board=nucleo-f446re\nchip=STM32F446RETx\n";
+
 /// Ceilings of this board (S13).
 const CEILING: Limits = Limits {
     // The hottest common nitinol has turned at 98 °C; paper browns above 150 °C.
@@ -25,12 +31,12 @@ pub(crate) fn config(boot: u32, reset: ResetCause) -> Config {
         unique_id: embassy_stm32::uid::uid(),
         reset,
     };
-    // No servo on this board yet; the range is that of common ones.
     Config {
         identity,
         ceiling: CEILING,
         channels: CHANNELS,
         thermistor: NTC_10K,
+        // That of common servos.
         servo_pulse_us: 500..=2_500,
     }
 }

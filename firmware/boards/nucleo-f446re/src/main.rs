@@ -1,44 +1,28 @@
-//! The firmware core on a NUCLEO-F446RE: takes the pins, starts the clocks and three tasks. What is decided is
-//! decided in `zygote-core`; the wiring stands in `docs/src/board-nucleo-f446re.md`.
+//! The firmware core on a NUCLEO-F446RE: pins, clocks and identity; the rest is in `zygote-stm32f4`. The wiring stands
+//! in `docs/src/board-nucleo-f446re.md`.
 #![no_std]
 #![no_main]
 
-mod actuators;
-mod clocks;
-mod dead_man;
 mod identity;
 mod pins;
-mod reset;
-mod safe_state;
-mod sensors;
-mod shell;
-mod tasks;
 
-use actuators::{Actuators, BoardOutputs, FourHeaters, HEATER_PIN, HEATER_PWM};
-use defmt_rtt as _;
-use embassy_executor::{Executor, Spawner};
 use embassy_stm32::{
-    Peri, Peripherals,
-    adc::Adc,
+    Peripherals,
+    adc::{Adc, AdcChannel},
     bind_interrupts,
-    gpio::{Input, Level, Output, Pin, Pull, Speed},
+    gpio::{Input, Level, Output, Pull, Speed},
+    i2c::I2c,
+    interrupt, pac,
     peripherals::USART2,
-    timer::{
-        low_level::CountingMode::EdgeAlignedUp,
-        simple_pwm::{PwmPin, SimplePwm},
-    },
     usart::{self, BufferedUart},
-    wdg::IndependentWatchdog,
 };
-use sensors::Sensors;
-use shell::{BoardCore, Shell};
-use static_cell::{ConstStaticCell, StaticCell};
-use zygote_protocol::ResetCause;
+use static_cell::ConstStaticCell;
+use zygote_stm32f4::{Actuators, Board, Edge, Sensors, ServoBus, clocks, four_heaters, low};
 
 /// Rate of the line to the ST-LINK's virtual COM port.
 const BAUD: u32 = 921_600;
-/// The watchdog's clock is between 17 and 47 kHz, nominally 32: a reset comes after 170 to 470 ms (S9: 500 ms).
-const WATCHDOG_US: u32 = 250_000;
+/// The blue button, PC13.
+const STOP_LINE: u8 = 13;
 
 bind_interrupts!(struct Interrupts {
     USART2 => usart::BufferedInterruptHandler<USART2>;
@@ -46,75 +30,60 @@ bind_interrupts!(struct Interrupts {
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    static EXECUTOR: StaticCell<Executor> = StaticCell::new();
-
-    safe_state::all_off();
-    let peripherals = embassy_stm32::init(clocks::config());
-    EXECUTOR.init(Executor::new()).run(|spawner| spawner.spawn(defmt::unwrap!(start(spawner, peripherals))))
+    zygote_stm32f4::first(&pins::ACTUATORS);
+    zygote_stm32f4::run(board(embassy_stm32::init(clocks::internal())))
 }
 
-/// Gives every pin to its driver, the core its identity, and the tasks their parts.
-#[embassy_executor::task]
-async fn start(spawner: Spawner, p: Peripherals) {
+/// Gives every pin to its driver.
+fn board(p: Peripherals) -> Board {
     // More than 10 ms of line in, one frame out.
     static RECEIVED: ConstStaticCell<[u8; 1024]> = ConstStaticCell::new([0; 1024]);
     static TO_SEND: ConstStaticCell<[u8; 128]> = ConstStaticCell::new([0; 128]);
-    static SHELL: StaticCell<Shell> = StaticCell::new();
 
-    let mut watchdog = IndependentWatchdog::new(p.IWDG, WATCHDOG_US);
-    watchdog.unleash();
-
-    macro_rules! four_heaters {
-        ($timer:ident: $ch1:ident, $ch2:ident, $ch3:ident, $ch4:ident) => {
-            FourHeaters::new(SimplePwm::new(
-                p.$timer,
-                Some(PwmPin::new_with_config(p.$ch1, HEATER_PIN)),
-                Some(PwmPin::new_with_config(p.$ch2, HEATER_PIN)),
-                Some(PwmPin::new_with_config(p.$ch3, HEATER_PIN)),
-                Some(PwmPin::new_with_config(p.$ch4, HEATER_PIN)),
-                HEATER_PWM,
-                EdgeAlignedUp,
-            ))
-        };
-    }
-    let actuators = Actuators {
-        heaters_0: four_heaters!(TIM1: PA8, PA9, PA10, PA11),
-        heaters_4: four_heaters!(TIM3: PA6, PA7, PB0, PB1),
-        heaters_8: four_heaters!(TIM4: PB6, PB7, PB8, PB9),
-        heaters_12: four_heaters!(TIM8: PC6, PC7, PC8, PC9),
-        springs: [low(p.PB12), low(p.PB13), low(p.PB14), low(p.PB15)],
-        main_switch: low(p.PC10),
-        applied: BoardOutputs::OFF,
-    };
-    let mut sensors = Sensors {
+    let actuators = Actuators::new(
+        [
+            four_heaters!(p.TIM1, TIM1: p.PA8, p.PA9, p.PA10, p.PA11),
+            four_heaters!(p.TIM3, TIM3: p.PA6, p.PA7, p.PB0, p.PB1),
+            four_heaters!(p.TIM4, TIM4: p.PB6, p.PB7, p.PB8, p.PB9),
+            four_heaters!(p.TIM8, TIM8: p.PC6, p.PC7, p.PC8, p.PC9),
+        ],
+        [low(p.PB12), low(p.PB13), low(p.PB14), low(p.PB15)],
+        low(p.PC10),
+    );
+    let sensors = Sensors {
         adc: Adc::new(p.ADC1),
-        thermistor: p.PA0,
-        supply: p.PA1,
-        current: p.PA4,
+        thermistor: p.PA0.degrade_adc(),
+        supply: p.PA1.degrade_adc(),
+        current: p.PA4.degrade_adc(),
         select: [low(p.PC0), low(p.PC1), low(p.PC2), low(p.PC3)],
+        // Pulled up on the board, low when pressed.
         stop: Input::new(p.PC13, Pull::None),
-        thermistors: [0; pins::HEATERS],
+        stop_pressed: Level::Low,
+        thermistors: [0; zygote_stm32f4::HEATERS],
     };
-
-    let (cause, kept) = (reset::cause(), reset::kept());
-    // After power was off memory holds anything, even something that looks whole.
-    let kept = kept.filter(|_| cause != ResetCause::Power);
-    let config = identity::config(reset::boot_id(sensors.noise()), cause);
-    let core = BoardCore::new(config, shell::now(), kept);
-    let shell = SHELL.init(Shell::new(core, actuators));
-    dead_man::watch();
+    zygote_stm32f4::watch_stop(2, STOP_LINE, Edge::Falling, pac::Interrupt::EXTI15_10);
 
     let mut config = usart::Config::default();
     config.baudrate = BAUD;
     let line = BufferedUart::new(p.USART2, p.PA3, p.PA2, TO_SEND.take(), RECEIVED.take(), Interrupts, config);
     let (transmitter, receiver) = defmt::unwrap!(line).split();
-
-    spawner.spawn(defmt::unwrap!(tasks::control(shell, sensors, watchdog)));
-    spawner.spawn(defmt::unwrap!(tasks::receive(shell, receiver)));
-    spawner.spawn(defmt::unwrap!(tasks::transmit(shell, transmitter)));
+    Board {
+        config: identity::config,
+        actuators,
+        sensors,
+        receiver,
+        transmitter,
+        servos: ServoBus {
+            i2c: I2c::new_blocking(p.I2C2, p.PB10, p.PC12, ServoBus::config()),
+            clock: (pac::GPIOB, 10),
+        },
+        servos_enable: Output::new(p.PC11, Level::High, Speed::Low),
+        flash: p.FLASH,
+    }
 }
 
-/// An output that is low from the start.
-fn low(pin: Peri<'static, impl Pin>) -> Output<'static> {
-    Output::new(pin, Level::Low, Speed::Low)
+/// The stop button.
+#[interrupt]
+fn EXTI15_10() {
+    zygote_stm32f4::on_stop_edge(STOP_LINE);
 }

@@ -3,8 +3,9 @@
 
 use crate::{
     actuators::Actuators,
+    board::{HEATERS, SERVOS, SPRINGS, STEPS},
     dead_man,
-    pins::{HEATERS, SERVOS, SPRINGS, STEPS},
+    memory::Keeping,
     reset,
 };
 use core::cell::RefCell;
@@ -21,14 +22,14 @@ pub(crate) type BoardCore = Core<HEATERS, SERVOS, SPRINGS, STEPS>;
 
 /// The core, the actuators, and the core's changes that are kept for after a reset; for tasks of one executor.
 pub(crate) struct Shell {
-    inner: Mutex<NoopRawMutex, RefCell<(BoardCore, Actuators, u32)>>,
+    inner: Mutex<NoopRawMutex, RefCell<(BoardCore, Actuators, Keeping, u32)>>,
     /// Set when the core may have something to say to the host.
     pub(crate) speak: Signal<NoopRawMutex, ()>,
 }
 
 impl Shell {
-    pub(crate) const fn new(core: BoardCore, actuators: Actuators) -> Self {
-        Self { inner: Mutex::new(RefCell::new((core, actuators, 0))), speak: Signal::new() }
+    pub(crate) const fn new(core: BoardCore, actuators: Actuators, keeping: Keeping) -> Self {
+        Self { inner: Mutex::new(RefCell::new((core, actuators, keeping, 0))), speak: Signal::new() }
     }
 
     /// Bytes from the host.
@@ -50,10 +51,14 @@ impl Shell {
 
     fn call<R>(&self, verb: impl FnOnce(&mut BoardCore) -> R) -> R {
         self.inner.lock(|inner| {
-            let (core, actuators, kept) = &mut *inner.borrow_mut();
+            let (core, actuators, keeping, kept) = &mut *inner.borrow_mut();
             let result = verb(core);
             actuators.apply(core.outputs());
             dead_man::set(core.dead_line());
+            if let Some(settings) = core.to_store() {
+                let is_stored = keeping.keep(settings);
+                core.stored(is_stored);
+            }
             let changes = core.changes();
             if changes != *kept {
                 *kept = changes;

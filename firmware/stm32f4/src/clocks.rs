@@ -9,7 +9,7 @@ use embassy_stm32::{
 };
 
 /// 16 MHz / 8 * 166 / 2 = 166 MHz; APB1 41.5 MHz (timers 83 MHz), APB2 83 MHz (timers 166 MHz, ADC 20.75 MHz).
-pub(crate) fn config() -> Config {
+pub fn internal() -> Config {
     let mut config = Config::default();
     config.rcc.hsi = true;
     config.rcc.pll_src = PllSource::HSI;

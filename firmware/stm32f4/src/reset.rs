@@ -45,11 +45,12 @@ pub(crate) fn dead_man() -> ! {
     SCB::sys_reset();
 }
 
-/// A number that differs from that of the start before: the count in the lower half, `noise` in the upper.
-pub(crate) fn boot_id(noise: u16) -> u32 {
+/// A number that differs from that of the start before, and by chance from all others: a count that any reset but a power failure
+/// leaves alone, spread over all bits, and noise.
+pub(crate) fn chance(noise: u32) -> u32 {
     let starts = STARTS.load(Ordering::Relaxed).wrapping_add(1);
     STARTS.store(starts, Ordering::Relaxed);
-    u32::from(noise) << 16 | starts & 0xffff
+    starts.wrapping_mul(0x9e37_79b9) ^ noise
 }
 
 /// Why the chip started; clears the flags, so that the next start reads its own.

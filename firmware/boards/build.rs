@@ -3,7 +3,7 @@
 use std::{env, error::Error, fs, path::PathBuf, process::Command};
 
 /// What the firmware is made of.
-const SOURCES: &[&str] = &[".", "../../core", "../../../protocol"];
+const SOURCES: &[&str] = &[".", "../../core", "../../parts", "../../stm32f4", "../../../protocol"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);

@@ -1,0 +1,246 @@
+//! Settings that a board keeps: lowered by the host, never raised above what is compiled in (S13), in force once stored.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod a_board;
+
+use zygote_core::{Core, Inputs};
+use zygote_protocol::{
+    Action, CentiCelsius, Command, FaultCode, Limits, Link, Micros, Milliamps, Millis, Millivolts, Received,
+    Refusal, RefusalCode, Reply, Report, Request, Response, RigId, Settings, SettingsReport, State, Step,
+    Turn, decode_payload, granted_session, program_crc,
+};
+
+type TheCore = Core<1, 1, 1, 4>;
+type Answer = Result<Reply, Refusal>;
+
+const BOOT: u32 = 0;
+
+/// A core and a host that talk without a line between them.
+struct Bench {
+    core: TheCore,
+    host: Link,
+    now: Micros,
+    id: u16,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let core = Core::new(a_board::config(1, 1, 1), Micros(0), None);
+        let mut bench = Self { core, host: Link::new(Micros(0)), now: Micros(1_000), id: 0 };
+        bench.open(5);
+        bench
+    }
+
+    fn open(&mut self, asked: u32) {
+        self.host.send_hello(asked, &zygote_protocol::Hello::ours()).unwrap();
+        self.carry();
+        self.host.open(granted_session(asked, BOOT), self.now);
+        self.carry();
+    }
+
+    /// Carries all that there is to say both ways; the responses.
+    fn carry(&mut self) -> Vec<Response> {
+        let (mut frame, mut responses) = ([0; zygote_protocol::MAX_ENCODED], Vec::new());
+        loop {
+            let length = self.host.poll_transmit(self.now, &mut frame);
+            self.core.handle_bytes(self.now, &frame[..length]);
+            let back = self.core.poll_transmit(self.now, &mut frame);
+            let mut bytes = &frame[..back];
+            while let Some(received) = self.host.receive(self.now, &mut bytes, true) {
+                if let Received::Message(payload) = received
+                    && let Some(Report::Response(response)) = decode_payload(payload)
+                {
+                    responses.push(response);
+                }
+            }
+            if length == 0 && back == 0 {
+                return responses;
+            }
+        }
+    }
+
+    fn send(&mut self, command: Command) -> u16 {
+        self.id += 1;
+        self.host.send(&Request { id: self.id, command }).unwrap();
+        self.id
+    }
+
+    fn ask(&mut self, command: Command) -> Answer {
+        let id = self.send(command);
+        let responses = self.carry();
+        assert_eq!(responses.iter().map(|response| response.id).collect::<Vec<_>>(), [id]);
+        responses.into_iter().next().unwrap().result
+    }
+
+    fn report(&mut self) -> SettingsReport {
+        let Ok(Reply::Settings(report)) = self.ask(Command::Settings) else { panic!("no settings") };
+        report
+    }
+
+    fn tick(&mut self, servos_lost: bool) {
+        let inputs = Inputs {
+            thermistors: &[2048],
+            supply: Millivolts(12_000),
+            current: Milliamps(0),
+            stop_pressed: false,
+            servos_lost,
+        };
+        self.now = self.now.plus(Millis(1));
+        self.core.tick(self.now, &inputs);
+    }
+}
+
+fn compiled() -> Settings {
+    let config = a_board::config(1, 1, 1);
+    Settings { ceiling: config.ceiling, shortest_pulse_us: 500, longest_pulse_us: 2_500 }
+}
+
+fn lowered() -> Settings {
+    Settings {
+        ceiling: Limits { max_temperature: CentiCelsius(8_000), ..compiled().ceiling },
+        shortest_pulse_us: 1_000,
+        longest_pulse_us: 2_000,
+    }
+}
+
+fn refused(code: RefusalCode, at: u16, expected: i64, got: i64) -> Answer {
+    Err(Refusal { code, at, expected, got })
+}
+
+/// A program of one servo, uploaded and committed.
+fn with_a_servo(bench: &mut Bench) -> Answer {
+    let turn = Turn {
+        channel: 0,
+        from_us: 700,
+        to_us: 1_500,
+        duration: Millis(900),
+        settle: Millis(0),
+        current: Milliamps(10),
+        hold_current: Milliamps(10),
+    };
+    let step = Step { hinge: 1, after: heapless::Vec::new(), action: Action::Turn(turn) };
+    let steps: heapless::Vec<Step, 4> = std::iter::once(step).collect();
+    let crc = program_crc(&steps);
+    let rig = RigId::try_from("r").unwrap();
+    bench.ask(Command::Upload { run: 1, rig, steps: 1, crc })?;
+    bench.ask(Command::Steps { first: 0, steps })?;
+    bench.ask(Command::Commit)
+}
+
+fn arm(bench: &mut Bench, limits: Limits) -> Answer {
+    bench.ask(Command::Arm { rig: RigId::try_from("r").unwrap(), limits, lifetime: Millis(10_000) })
+}
+
+#[test]
+fn settings_are_in_force_and_answered_only_once_they_are_stored() {
+    let mut bench = Bench::new();
+    assert_eq!((bench.report().in_force, bench.report().compiled), (compiled(), compiled()));
+    let id = bench.send(Command::Configure(lowered()));
+    assert!(bench.carry().is_empty(), "not yet");
+    assert_eq!(bench.core.to_store(), Some(&lowered()));
+    assert_eq!(bench.report().in_force, compiled());
+    bench.core.stored(true);
+    assert_eq!(bench.core.to_store(), None);
+    assert_eq!(bench.carry(), [Response { id, result: Ok(Reply::Done) }]);
+    assert_eq!((bench.report().in_force, bench.report().compiled), (lowered(), compiled()));
+}
+
+#[test]
+fn settings_that_cannot_be_stored_change_nothing() {
+    let mut bench = Bench::new();
+    let id = bench.send(Command::Configure(lowered()));
+    bench.carry();
+    bench.core.stored(false);
+    assert_eq!(bench.carry(), [Response { id, result: refused(RefusalCode::NotStored, 0, 0, 0) }]);
+    assert_eq!(bench.report().in_force, compiled());
+}
+
+#[test]
+fn s13_no_setting_goes_beyond_the_board() {
+    let mut bench = Bench::new();
+    let hot = Limits { max_temperature: CentiCelsius(12_001), ..compiled().ceiling };
+    assert_eq!(
+        bench.ask(Command::Configure(Settings { ceiling: hot, ..compiled() })),
+        refused(RefusalCode::LimitAboveCeiling, 0, 12_000, 12_001)
+    );
+    assert_eq!(
+        bench.ask(Command::Configure(Settings { longest_pulse_us: 2_501, ..compiled() })),
+        refused(RefusalCode::ServoRange, 0, 2_500, 2_501)
+    );
+    assert_eq!(bench.core.to_store(), None);
+    // Once lowered they may be raised again, as far as the board goes.
+    for settings in [lowered(), compiled()] {
+        bench.send(Command::Configure(settings));
+        bench.carry();
+        bench.core.stored(true);
+        bench.carry();
+        assert_eq!(bench.report().in_force, settings);
+    }
+}
+
+#[test]
+fn s13_what_was_stored_by_a_laxer_firmware_is_held_to_this_one() {
+    let mut bench = Bench::new();
+    let hot = Limits { max_temperature: CentiCelsius(20_000), max_on: Millis(1), ..compiled().ceiling };
+    bench.core.restore(&Settings { ceiling: hot, ..lowered() });
+    let in_force = bench.report().in_force;
+    assert_eq!(in_force.ceiling, Limits { max_on: Millis(1), ..compiled().ceiling });
+    assert_eq!((in_force.shortest_pulse_us, in_force.longest_pulse_us), (1_000, 2_000));
+}
+
+#[test]
+fn s13_lowered_settings_bind_programs_and_arming() {
+    let mut bench = Bench::new();
+    bench.core.restore(&lowered());
+    assert_eq!(with_a_servo(&mut bench), refused(RefusalCode::ServoRange, 0, 1_000, 700));
+    bench.core.restore(&compiled());
+    assert_eq!(bench.ask(Command::Commit), Ok(Reply::Done));
+    bench.core.restore(&Settings { shortest_pulse_us: 500, ..lowered() });
+    assert_eq!(
+        arm(&mut bench, compiled().ceiling),
+        refused(RefusalCode::LimitAboveCeiling, 0, 8_000, 12_000)
+    );
+    assert_eq!(arm(&mut bench, lowered().ceiling), Ok(Reply::Done));
+}
+
+#[test]
+fn nothing_is_stored_while_something_is_energised_nor_armed_while_something_is_stored() {
+    let mut bench = Bench::new();
+    assert_eq!(with_a_servo(&mut bench), Ok(Reply::Done));
+    bench.send(Command::Configure(compiled()));
+    bench.carry();
+    assert_eq!(arm(&mut bench, compiled().ceiling), refused(RefusalCode::Storing, 0, 0, 0));
+    assert_eq!(bench.ask(Command::Configure(lowered())), refused(RefusalCode::Storing, 0, 0, 0));
+    bench.core.stored(true);
+    bench.carry();
+    assert_eq!(arm(&mut bench, compiled().ceiling), Ok(Reply::Done));
+    assert_eq!(bench.ask(Command::Configure(lowered())), refused(RefusalCode::WrongState, 0, 0, 2));
+    assert_eq!(bench.core.to_store(), None);
+}
+
+#[test]
+fn the_answer_belongs_to_the_session_that_asked() {
+    let mut bench = Bench::new();
+    bench.send(Command::Configure(lowered()));
+    bench.carry();
+    bench.open(6);
+    bench.core.stored(true);
+    assert_eq!(bench.carry(), []);
+    assert_eq!(bench.report().in_force, lowered(), "stored all the same");
+}
+
+#[test]
+fn a_lost_servo_driver_ends_a_run_with_servos_and_no_other() {
+    let mut bench = Bench::new();
+    bench.tick(true);
+    assert_eq!(bench.core.state(), State::Idle, "a rig without servos has no driver");
+    with_a_servo(&mut bench).unwrap();
+    arm(&mut bench, compiled().ceiling).unwrap();
+    bench.ask(Command::Start { run: 1 }).unwrap();
+    bench.tick(false);
+    assert_eq!(bench.core.state(), State::Running);
+    assert!(bench.core.outputs().servos[0].is_some());
+    bench.tick(true);
+    assert_eq!(bench.core.fault().map(|fault| fault.code), Some(FaultCode::ServosLost));
+    assert_eq!(*bench.core.outputs(), zygote_core::Outputs::OFF);
+}

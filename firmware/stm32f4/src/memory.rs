@@ -1,0 +1,52 @@
+//! The flash behind what outlives power: sectors 1 and 2, 16 KiB each, which the linker script keeps free of code.
+//!
+//! Erasing halts the processor for up to 0.8 s, because code runs from the same flash. It happens at the start and while settings are
+//! stored, with everything off, and the watchdog is told before.
+
+use crate::supervisor;
+use embassy_stm32::{
+    Peri,
+    flash::{Bank1Region1, Blocking, Flash},
+    peripherals::FLASH,
+};
+use zygote_parts::Memory;
+use zygote_protocol::Settings;
+
+/// Where sector 1 begins, counted from the start of the flash.
+const SECTORS: u32 = 0x4000;
+
+/// What outlives power; `None` where the flash can't be used.
+pub(crate) struct Keeping(Option<Memory<Bank1Region1<'static, Blocking>>>);
+
+impl Keeping {
+    /// Finds the latest record.
+    pub(crate) fn open(flash: Peri<'static, FLASH>) -> Self {
+        let flash = Flash::new_blocking(flash).into_blocking_regions().bank1_region1;
+        Self(said(Memory::open(flash, SECTORS)))
+    }
+
+    /// The number of this start, which no other had; `first` if there is no earlier one. `None` if that can't be had.
+    /// The watchdog is patient at the start.
+    pub(crate) fn count_start(&mut self, first: u32) -> Option<u32> {
+        said(self.0.as_mut()?.count_start(first))
+    }
+
+    /// The settings that were kept.
+    pub(crate) fn settings(&self) -> Option<Settings> {
+        said(self.0.as_ref()?.settings()).flatten()
+    }
+
+    /// Keeps settings; whether that is done. Nothing may be energised.
+    pub(crate) fn keep(&mut self, settings: &Settings) -> bool {
+        let Some(memory) = &mut self.0 else { return false };
+        supervisor::be_patient();
+        let kept = said(memory.keep(settings)).is_some();
+        supervisor::be_strict();
+        kept
+    }
+}
+
+/// The good half, or a line in the log: a board without memory works, with the ceilings compiled into it.
+fn said<T, E: core::fmt::Display>(result: Result<T, E>) -> Option<T> {
+    result.inspect_err(|error| defmt::error!("memory: {}", defmt::Display2Format(error))).ok()
+}

@@ -1,0 +1,118 @@
+//! `zygote settings`: what a board keeps over power cycles, and lowering its limits for the rig at hand (S13).
+
+use crate::failure::{Failure, OrFail};
+use crate::identity;
+use crate::output::say;
+use clap::Args;
+use serde_json::{Value, json};
+use zygote_controller::{SerialTransport, Session};
+use zygote_protocol::{CentiCelsius, Milliamps, Millis, Settings, SettingsReport};
+
+/// How long an answer to the hello is waited for.
+const HELLO_PATIENCE: Millis = Millis(5_000);
+
+/// Arguments of `zygote settings`.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// Serial port of the board
+    #[arg(long, value_name = "DEV")]
+    port: String,
+    /// Speed of the line
+    #[arg(long, value_name = "BAUD", default_value_t = 921_600)]
+    baud: u32,
+    /// Highest temperature of any hinge, 0.01 °C
+    #[arg(long, value_name = "CENTI_C")]
+    max_temperature: Option<i16>,
+    /// Longest time that a heater may be on, ms
+    #[arg(long, value_name = "MS")]
+    max_on: Option<u32>,
+    /// Shortest rest of a heater, ms
+    #[arg(long, value_name = "MS")]
+    min_rest: Option<u32>,
+    /// Highest sum of currents, mA
+    #[arg(long, value_name = "MA")]
+    supply: Option<u32>,
+    /// Longest silence of the host, ms
+    #[arg(long, value_name = "MS")]
+    link_timeout: Option<u32>,
+    /// Shortest servo pulse, us
+    #[arg(long, value_name = "US")]
+    shortest_pulse: Option<u16>,
+    /// Longest servo pulse, us
+    #[arg(long, value_name = "US")]
+    longest_pulse: Option<u16>,
+    /// Start from what is compiled into the board, not from what is in force
+    #[arg(long)]
+    reset: bool,
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Has the board keep what is asked for, if anything is, and prints what it keeps.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let line = SerialTransport::open(&arguments.port, arguments.baud).or_bad_input()?;
+    let mut session = Session::connect(line, identity::fresh(), HELLO_PATIENCE).or_failed()?;
+    let before = session.settings().or_failed()?;
+    let wanted = arguments.wanted(&before);
+    if wanted != before.in_force {
+        session.configure(wanted).or_failed()?;
+    }
+    let after = session.settings().or_failed()?;
+    if arguments.json {
+        say(format_args!(
+            "{:#}",
+            json!({ "in_force": value(&after.in_force), "compiled": value(&after.compiled) })
+        ));
+    } else {
+        say(table(&after));
+    }
+    Ok(())
+}
+
+impl Arguments {
+    fn wanted(&self, now: &SettingsReport) -> Settings {
+        let mut wanted = if self.reset { now.compiled } else { now.in_force };
+        let ceiling = &mut wanted.ceiling;
+        set(&mut ceiling.max_temperature, self.max_temperature.map(CentiCelsius));
+        set(&mut ceiling.max_on, self.max_on.map(Millis));
+        set(&mut ceiling.min_rest, self.min_rest.map(Millis));
+        set(&mut ceiling.supply, self.supply.map(Milliamps));
+        set(&mut ceiling.link_timeout, self.link_timeout.map(Millis));
+        set(&mut wanted.shortest_pulse_us, self.shortest_pulse);
+        set(&mut wanted.longest_pulse_us, self.longest_pulse);
+        wanted
+    }
+}
+
+fn set<T>(place: &mut T, value: Option<T>) {
+    if let Some(value) = value {
+        *place = value;
+    }
+}
+
+/// Name, unit and value of each setting.
+fn fields(settings: &Settings) -> [(&'static str, &'static str, i64); 7] {
+    let Settings { ceiling, shortest_pulse_us, longest_pulse_us } = settings;
+    [
+        ("max_temperature", "0.01 °C", ceiling.max_temperature.0.into()),
+        ("max_on", "ms", ceiling.max_on.0.into()),
+        ("min_rest", "ms", ceiling.min_rest.0.into()),
+        ("supply", "mA", ceiling.supply.0.into()),
+        ("link_timeout", "ms", ceiling.link_timeout.0.into()),
+        ("shortest_pulse", "us", (*shortest_pulse_us).into()),
+        ("longest_pulse", "us", (*longest_pulse_us).into()),
+    ]
+}
+
+fn value(settings: &Settings) -> Value {
+    fields(settings).into_iter().map(|(name, _, value)| (name.to_owned(), Value::from(value))).collect()
+}
+
+fn table(report: &SettingsReport) -> String {
+    let head = format!("{:<16}{:<9}{:>9}{:>10}", "setting", "unit", "in force", "compiled");
+    let rows = fields(&report.in_force).into_iter().zip(fields(&report.compiled));
+    let rows =
+        rows.map(|((name, unit, ours), (_, _, most))| format!("{name:<16}{unit:<9}{ours:>9}{most:>10}"));
+    std::iter::once(head).chain(rows).collect::<Vec<_>>().join("\n")
+}
