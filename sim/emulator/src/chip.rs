@@ -267,8 +267,9 @@ impl Chip {
             let stuck = match self.hung {
                 None => false,
                 Some(Stuck::Everything) => true,
-                // Until an interrupt is due, or one is handled.
-                Some(Stuck::Tasks) => ordinary.is_some() && self.core.current_exception() == Exception::THREAD,
+                // Until an interrupt of the hardware is due, or one is handled: tasks run in the thread, or in a handler that
+                // a program pends by itself.
+                Some(Stuck::Tasks) => ordinary.is_some() && !is_of_hardware(self.core.current_exception()),
             };
             if stuck {
                 self.shared.set_now(horizon);
@@ -360,6 +361,12 @@ impl Chip {
             Err(ChipError::Unmodelled { address, write, pc: self.core.pc(), ps: self.ps() })
         })
     }
+}
+
+/// A handler of an interrupt that a peripheral can raise.
+fn is_of_hardware(handler: Exception) -> bool {
+    let number = handler.0.checked_sub(FIRST_INTERRUPT);
+    number.is_some_and(|number| Peripherals::INTERRUPTS.contains(&number))
 }
 
 fn map_error(error: impl std::fmt::Display) -> ChipError {

@@ -2,12 +2,15 @@
 
 use crate::chip::{FLASH, RAM};
 use object::elf::{EM_ARM, ET_EXEC, FileHeader32, PT_LOAD};
-use object::read::elf::{FileHeader, ProgramHeader, Sym};
+use object::read::elf::{FileHeader, ProgramHeader, SectionHeader, Sym};
 use object::Endianness;
 use std::io;
 use std::path::Path;
 use zygote_protocol::RETAINED_WORDS;
 
+/// The board that is emulated, and the section in which a program says which one it is for.
+const BOARD: &str = "nucleo-f446re";
+const CARD: &[u8] = b".zygote";
 /// Interrupts of the STM32F446, so entries of its vector table after the first sixteen.
 const INTERRUPTS: usize = 97;
 /// The vector table as `cortex-m-rt` calls it.
@@ -59,6 +62,12 @@ pub enum ElfError {
     Interrupts {
         /// How many.
         got: usize,
+    },
+    /// A program for another board.
+    #[error("it says that it is for the board `{got}`, expected `{BOARD}`")]
+    Board {
+        /// What it says.
+        got: String,
     },
     /// No vector table at the start of flash.
     #[error("no program starts at {:#010x}: stack {stack:#010x}, first instruction {entry:#010x}", FLASH.start)]
@@ -124,7 +133,7 @@ impl Image {
                 place.copy_from_slice(data);
             }
         }
-        let retained = look_at_symbols(header, endian, bytes)?;
+        let retained = look_at_sections(header, endian, bytes)?;
         let word = |at: usize| {
             flash.get(at..at + 4).and_then(|word| word.try_into().ok()).map_or(u32::MAX, u32::from_le_bytes)
         };
@@ -134,15 +143,22 @@ impl Image {
     }
 }
 
-/// Chips of one family differ in what interrupts they have, and all programs say how many they expect. Where the retained
-/// snapshot lies is told by its name.
-fn look_at_symbols(
+/// A program says which board it is for. Chips of one family differ in what interrupts they have, and programs show how
+/// many they expect. Where the retained snapshot lies is told by its name.
+fn look_at_sections(
     header: &FileHeader32<Endianness>,
     endian: Endianness,
     bytes: &[u8],
 ) -> Result<Option<u32>, ElfError> {
     let mut retained = None;
     let sections = header.sections(endian, bytes)?;
+    if let Some((_, card)) = sections.section_by_name(endian, CARD) {
+        let card = String::from_utf8_lossy(card.data(endian, bytes)?);
+        let got = card.lines().find_map(|line| line.strip_prefix("board=")).unwrap_or_default();
+        if got != BOARD {
+            return Err(ElfError::Board { got: got.to_owned() });
+        }
+    }
     let symbols = sections.symbols(endian, bytes, object::elf::SHT_SYMTAB)?;
     for symbol in symbols.iter() {
         let (name, words) = (symbols.symbol_name(endian, symbol)?, symbol.st_size(endian) as usize / 4);

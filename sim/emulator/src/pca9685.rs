@@ -64,7 +64,7 @@ impl Pca9685 {
             PRE_SCALE if self.get(MODE1) & SLEEP == 0 => {}
             ALL_LED..PRE_SCALE => {
                 for channel in 0..16 {
-                    self.registers[usize::from(LED0 + register - ALL_LED) + 4 * channel] = byte;
+                    self.registers[usize::from(LED0 + (register - ALL_LED)) + 4 * channel] = byte;
                 }
             }
             _ => self.registers[usize::from(register)] = byte,

@@ -80,6 +80,22 @@ pub(crate) struct Peripherals {
 }
 
 impl Peripherals {
+    /// The numbers of all interrupts that can be raised here.
+    pub(crate) const INTERRUPTS: [u16; 12] = [
+        ADC_IRQ,
+        EXTI9_5_IRQ,
+        USART2_IRQ,
+        EXTI15_10_IRQ,
+        TIMERS[0].3,
+        TIMERS[1].3,
+        TIMERS[2].3,
+        TIMERS[3].3,
+        TIMERS[4].3,
+        TIMERS[5].3,
+        TIMERS[6].3,
+        TIMERS[7].3,
+    ];
+
     pub(crate) fn new(flash: Flash) -> Self {
         let rcc = Rcc::new(Reset::Power);
         let mut ports = ['A', 'B', 'C'].map(Gpio::new);

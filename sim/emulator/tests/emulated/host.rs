@@ -94,12 +94,17 @@ impl Host {
         host
     }
 
-    /// Opens a session.
+    /// Opens a session. A board that has just started may miss a hello, so it is said again and again.
     pub(crate) fn connect(&mut self, session: u32) {
         self.identity = None;
         self.link = Link::new(self.board.now());
-        self.link.send_hello(session, &Hello::ours()).unwrap();
-        self.pass_until(Millis(100), |host| host.identity.is_some());
+        for _ in 0..20 {
+            self.link.send_hello(session, &Hello::ours()).unwrap();
+            self.pass(Millis(50));
+            if self.identity.is_some() {
+                break;
+            }
+        }
         let boot = self.identity.as_ref().unwrap().boot;
         self.link.open(granted_session(session, boot), self.board.now());
     }
