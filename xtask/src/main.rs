@@ -32,7 +32,11 @@ const PARTS: &[Part] = &[
     Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
     Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: hil::run },
     Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },
-    Part { verb: "emulator", about: "the board's program, as just built, on an emulated chip", run: emulator::run },
+    Part {
+        verb: "emulator",
+        about: "the board's program, as just built, on an emulated chip",
+        run: emulator::run,
+    },
 ];
 
 fn main() -> ExitCode {

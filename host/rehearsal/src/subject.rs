@@ -133,7 +133,8 @@ impl Subject for EmulatedBoard {
     }
 
     fn step_states(&self) -> Vec<StepState> {
-        self.snapshot().map_or_else(Vec::new, |snapshot| (0..snapshot.steps).map(|step| of(snapshot, step)).collect())
+        self.snapshot()
+            .map_or_else(Vec::new, |snapshot| (0..snapshot.steps).map(|step| of(snapshot, step)).collect())
     }
 
     fn drives(&self, kind: Kind, channel: usize) -> bool {

@@ -20,7 +20,7 @@ const NAMES: [&str; 18] = [
     "s05-thermistor-open",
     "s05-thermistor-shorted",
     "s06-mosfet-stuck",
-    "s06-heater-open",
+    "s06-heater-breaks",
     "s08-stop-button",
     "s08-stop-frame",
     "s09-mcu-stuck",

@@ -104,7 +104,11 @@ impl Adc {
     }
 
     fn sampling(&self, channel: u32) -> u64 {
-        let bits = if channel < 10 { self.get(SMPR2) >> (3 * channel) } else { self.get(SMPR1) >> (3 * (channel - 10)) };
+        let bits = if channel < 10 {
+            self.get(SMPR2) >> (3 * channel)
+        } else {
+            self.get(SMPR1) >> (3 * (channel - 10))
+        };
         SAMPLING[(bits & 7) as usize]
     }
 

@@ -16,9 +16,8 @@ use core::time::Duration;
 use std::collections::BTreeMap;
 use zygote_core::ADC_FULL_SCALE;
 use zygote_protocol::{Micros, RETAINED_WORDS, ResetCause, Retained, Snapshot};
-use zygote_sim::{Device, Stuck};
 use zygote_sim::plant::{Config as PlantConfig, Drive as PlantDrive, Plant, PlantError, Readings};
-
+use zygote_sim::{Device, Stuck};
 
 /// Longest time between two looks at the plant: what the program converts is at most so old.
 const SLICE_PS: u64 = 1_000_000_000;
@@ -226,7 +225,8 @@ impl EmulatedBoard {
 
 /// What the converter makes of a value.
 fn counts(value: u32, full_scale: u32) -> u16 {
-    let counts = (u64::from(value) * u64::from(ADC_FULL_SCALE) + u64::from(full_scale) / 2) / u64::from(full_scale);
+    let counts =
+        (u64::from(value) * u64::from(ADC_FULL_SCALE) + u64::from(full_scale) / 2) / u64::from(full_scale);
     u16::try_from(counts).map_or(ADC_FULL_SCALE, |counts| counts.min(ADC_FULL_SCALE))
 }
 

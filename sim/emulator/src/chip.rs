@@ -19,7 +19,7 @@ use crate::rcc::Reset;
 use rsemu::core::device::{Device, ResetKind};
 use rsemu::core::space::{AddressSpace, RamStore, Region, RomStore, RomWrite};
 use rsemu::cpu::arm::v7m::sys::Exception;
-use rsemu::cpu::arm::v7m::{ArmV7m, Config};
+use rsemu::cpu::arm::v7m::{ArmV7m, Config, Regs, xpsr};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -279,8 +279,7 @@ impl Chip {
                 && let Some(masked) = ordinary
             {
                 let mut regs = self.core.regs();
-                let end =
-                    self.quick.run(&mut regs, &self.shared, horizon, masked, &mut self.instructions);
+                let end = self.quick.run(&mut regs, &self.shared, horizon, masked, &mut self.instructions);
                 self.core.set_regs(regs);
                 if end != End::Core {
                     if self.shared.take_look() {
@@ -290,7 +289,7 @@ impl Chip {
                 }
             }
             let before = self.core.current_exception();
-            let cycles = self.core.step();
+            let cycles = self.step_core();
             self.quick.core_stepped();
             self.instructions += 1;
             self.shared.set_now(self.shared.now() + cycles);
@@ -320,7 +319,8 @@ impl Chip {
             if counts || system.mpu_ctrl & 1 == 1 || system.ccr & TRAPS != 0 {
                 return None;
             }
-            let raised = self.raised.iter().filter(|line| system.is_enabled(**line) && !system.is_active(**line));
+            let raised =
+                self.raised.iter().filter(|line| system.is_enabled(**line) && !system.is_active(**line));
             let raised = raised.map(|line| system.priority_of(*line));
             let pending = system.highest_pending().map(|(_, priority)| priority);
             Some(raised.chain(pending).min())
@@ -333,6 +333,19 @@ impl Chip {
             && !self.core.is_locked_up()
             && !self.core.reset_pending();
         ordinary.then_some(waits.is_some() && regs.primask)
+    }
+
+    /// Steps the core. It forgets the state of an IT block when an interrupt comes in the middle of one, and would execute
+    /// the rest whatever its condition says: interrupts wait until the block is over, four instructions at most.
+    fn step_core(&self) -> u64 {
+        let regs = self.core.regs();
+        if regs.xpsr & xpsr::IT_MASK == 0 || regs.primask {
+            return self.core.step();
+        }
+        self.core.set_regs(Regs { primask: true, ..regs });
+        let cycles = self.core.step();
+        self.core.set_regs(Regs { primask: false, ..self.core.regs() });
+        cycles
     }
 
     fn note_entry(&mut self, before: Exception) {

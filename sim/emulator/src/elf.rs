@@ -1,9 +1,9 @@
 //! Reads a program for the board: what is flashed, where, and whether it is for this chip at all.
 
 use crate::chip::{FLASH, RAM};
+use object::Endianness;
 use object::elf::{EM_ARM, ET_EXEC, FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader, ProgramHeader, SectionHeader, Sym};
-use object::Endianness;
 use std::io;
 use std::path::Path;
 use zygote_protocol::RETAINED_WORDS;
@@ -58,7 +58,9 @@ pub enum ElfError {
         end: u64,
     },
     /// A program for another chip of the family.
-    #[error("its vector table has {got} interrupts, the STM32F446 has {INTERRUPTS}: a program for another chip")]
+    #[error(
+        "its vector table has {got} interrupts, the STM32F446 has {INTERRUPTS}: a program for another chip"
+    )]
     Interrupts {
         /// How many.
         got: usize,

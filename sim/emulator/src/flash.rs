@@ -154,7 +154,10 @@ mod tests {
         flash.write(SR, SEQUENCE_ERROR);
         KEYS.into_iter().for_each(|key| flash.write(KEYR, key));
         flash.write(CR, ERASE | 1 << 3 | START);
-        assert_eq!((word(&flash, 0x4000), word(&flash, 0x7ffc), word(&flash, 0x8000)), (0xffff_ffff, 0xffff_ffff, 0));
+        assert_eq!(
+            (word(&flash, 0x4000), word(&flash, 0x7ffc), word(&flash, 0x8000)),
+            (0xffff_ffff, 0xffff_ffff, 0)
+        );
         assert_eq!(flash.take_stall_us(), 500_000);
         flash.write(CR, PROGRAM | WORDS);
         flash.program(place, 4, 0xf0f0_f0f0);

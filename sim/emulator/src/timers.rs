@@ -51,14 +51,8 @@ pub(crate) struct Timer {
 
 impl Timer {
     pub(crate) fn new(kind: Kind) -> Self {
-        let mut timer = Self {
-            kind,
-            registers: [0; (END / 4) as usize],
-            prescaler: 0,
-            divisor: 1,
-            origin: 0,
-            seen: 0,
-        };
+        let mut timer =
+            Self { kind, registers: [0; (END / 4) as usize], prescaler: 0, divisor: 1, origin: 0, seen: 0 };
         timer.set(ARR, timer.mask());
         timer
     }
@@ -216,8 +210,7 @@ impl Timer {
     /// Counts on from a value, or stands there.
     fn restart(&mut self, count: u32, now: u64) {
         let running = self.get(CR1) & CEN != 0;
-        self.origin =
-            if running { now.saturating_sub(u64::from(count) * self.tick()) } else { count.into() };
+        self.origin = if running { now.saturating_sub(u64::from(count) * self.tick()) } else { count.into() };
         self.seen = count.into();
     }
 

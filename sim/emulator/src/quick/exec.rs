@@ -81,7 +81,9 @@ impl Run<'_> {
             }
             Insn::Adr { rd, imm, add } => self.set(rd, moved(self.r[15] & !3, imm, add)),
             Insn::MovImm16 { top: false, rd, imm } => self.set(rd, imm.into()),
-            Insn::MovImm16 { top: true, rd, imm } => self.set(rd, self.get(rd) & 0xffff | u32::from(imm) << 16),
+            Insn::MovImm16 { top: true, rd, imm } => {
+                self.set(rd, self.get(rd) & 0xffff | u32::from(imm) << 16)
+            }
             Insn::Branch { cond, offset } => {
                 if cond.is_none_or(|cond| cond.passes(self.xpsr)) {
                     self.branch(self.r[15].wrapping_add_signed(offset));

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use zygote_emulator::{EmulatedBoard, Image};
 use zygote_protocol::{
     Action, CentiCelsius, Command, Event, Fault, Heat, Hello, HelloReply, Identity, Limits, Link,
-    MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Reply, Report, Request, Response, Snapshot, State, Step,
-    Telemetry, Urgent, decode_payload, granted_session, program_crc,
+    MAX_ENCODED, Micros, Milliamps, Millis, Received, Refusal, Reply, Report, Request, Response, Snapshot,
+    State, Step, Telemetry, Urgent, decode_payload, granted_session, program_crc,
 };
 use zygote_sim::plant::{Config, SmaConfig};
 
@@ -180,16 +180,22 @@ impl Host {
         panic!("no answer");
     }
 
+    /// Uploads steps, up to the commit's answer.
+    pub(crate) fn upload(&mut self, steps: &[Step]) -> Result<Reply, Refusal> {
+        let count = u16::try_from(steps.len()).unwrap();
+        let rig = RIG.try_into().unwrap();
+        self.ask(Command::Upload { run: 5, rig, steps: count, crc: program_crc(steps) })?;
+        for (first, chunk) in (0..).step_by(4).zip(steps.chunks(4)) {
+            self.ask(Command::Steps { first, steps: chunk.iter().cloned().collect() })?;
+        }
+        self.ask(Command::Commit)
+    }
+
     /// Uploads, arms and starts.
     pub(crate) fn run(&mut self, steps: &[Step]) {
-        let count = u16::try_from(steps.len()).unwrap();
-        let rig = || RIG.try_into().unwrap();
-        self.ask(Command::Upload { run: 5, rig: rig(), steps: count, crc: program_crc(steps) }).unwrap();
-        for (first, chunk) in (0..).step_by(4).zip(steps.chunks(4)) {
-            self.ask(Command::Steps { first, steps: chunk.iter().cloned().collect() }).unwrap();
-        }
-        self.ask(Command::Commit).unwrap();
-        self.ask(Command::Arm { rig: rig(), limits: LIMITS, lifetime: Millis(5_000) }).unwrap();
+        self.upload(steps).unwrap();
+        self.ask(Command::Arm { rig: RIG.try_into().unwrap(), limits: LIMITS, lifetime: Millis(5_000) })
+            .unwrap();
         self.ask(Command::Start { run: 5 }).unwrap();
     }
 

@@ -194,8 +194,7 @@ fn interrupts_and_control_ticks_are_in_time_while_a_hinge_is_heated() {
     host.run(&[heat(0, &[])]);
     host.pass(Millis(5_000));
     let rounds = host.board.take_rounds();
-    let mut periods: Vec<u64> =
-        rounds.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let mut periods: Vec<u64> = rounds.windows(2).map(|pair| pair[1] - pair[0]).collect();
     periods.sort_unstable();
     let median = periods[periods.len() / 2];
     // Against a grid of the ticker's own period.
