@@ -67,7 +67,6 @@ impl Shared {
     pub(crate) fn read(&self, address: u32) -> Option<u32> {
         let mut peripherals = self.peripherals();
         let mut now = self.now();
-        let before = peripherals.drive;
         // A program that asks again and again whether a conversion is over gets its answer when it is, or when something
         // else happens: the same course of events, without a thousand rounds of the same loop.
         if let Some(over) = peripherals.awaited(address) {
@@ -75,7 +74,7 @@ impl Shared {
             self.set_now(now);
         }
         let answer = peripherals.read(address, now);
-        if answer.is_none_or(|(_, after)| after == After::Look) || peripherals.drive != before {
+        if answer.is_none_or(|(_, after)| after == After::Look) {
             self.look();
         }
         answer.map(|(value, _)| value)
@@ -84,10 +83,9 @@ impl Shared {
     /// Writes a register.
     pub(crate) fn write(&self, address: u32, value: u32) -> Option<()> {
         let mut peripherals = self.peripherals();
-        let before = peripherals.drive;
         let after = peripherals.write(address, value, self.now());
         self.stand_still(&mut peripherals);
-        if after != Some(After::Go) || peripherals.drive != before {
+        if after != Some(After::Go) {
             self.look();
         }
         after.map(drop)

@@ -164,8 +164,7 @@ impl Peripherals {
             }
             0x4000_5800..0x4000_5c00 if self.rcc.enabled(Bus::Apb1, 22) => {
                 let value = self.i2c.read(offset, now, &mut self.servos);
-                self.look_at_pins();
-                go(value)
+                Some((value, self.look_at_pins()))
             }
             0x4001_2000..0x4001_2400 if self.rcc.enabled(Bus::Apb2, 8) => go(self.adc.read(offset, now)),
             0x4001_3800..0x4001_3c00 => go(self.exti.read_system(offset)),
@@ -209,7 +208,7 @@ impl Peripherals {
             0x4000_5800..0x4000_5c00 => {
                 if self.rcc.enabled(Bus::Apb1, 22) {
                     self.i2c.write(offset, value, now, &mut self.servos);
-                    self.look_at_pins();
+                    return Some(self.look_at_pins());
                 }
                 return Some(After::Go);
             }
@@ -233,7 +232,7 @@ impl Peripherals {
                     self.ports[port].write(offset, value);
                     let only_others = offset == 0x18 && (value | value >> 16) & ACTUATORS[port] == 0;
                     if !only_others {
-                        self.look_at_pins();
+                        return Some(self.look_at_pins());
                     }
                 }
                 return Some(After::Go);
@@ -340,10 +339,13 @@ impl Peripherals {
         self.adc.set_divisor(self.rcc.divisor(Bus::Apb2));
     }
 
-    fn look_at_pins(&mut self) {
+    /// What the pins do now; a change is to be looked at.
+    fn look_at_pins(&mut self) -> After {
         let [tim1, tim3, tim4, tim8, ..] = &self.timers;
         let timers = PwmTimers { tim1, tim3, tim4, tim8 };
+        let before = self.drive;
         self.drive = drive(&self.ports, &timers, &self.servos);
+        if self.drive == before { After::Go } else { After::Look }
     }
 }
 
