@@ -152,7 +152,9 @@ mod tests {
         flash.program(place, 4, 5);
         assert_eq!(flash.read(SR), SEQUENCE_ERROR);
         flash.write(SR, SEQUENCE_ERROR);
-        KEYS.into_iter().for_each(|key| flash.write(KEYR, key));
+        for key in KEYS {
+            flash.write(KEYR, key);
+        }
         flash.write(CR, ERASE | 1 << 3 | START);
         assert_eq!(
             (word(&flash, 0x4000), word(&flash, 0x7ffc), word(&flash, 0x8000)),

@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn a_register_that_was_written_is_read_back_after_a_repeated_start() {
         let (mut i2c, mut chip, mut now) = (I2c::new(), Pca9685::new(), 0);
-        i2c.write(CCR, FAST | 35, now, &mut chip);
+        i2c.write(CCR, FAST | 0x23, now, &mut chip);
         begin(&mut i2c, &mut now, &mut chip, 0x80);
         wait(&mut i2c, &mut now, &mut chip, ADDR);
         i2c.read(SR2, now, &mut chip);

@@ -117,7 +117,9 @@ mod tests {
 
     fn write(chip: &mut Pca9685, bytes: &[u8]) {
         assert!(chip.address(ADDRESS));
-        bytes.iter().for_each(|byte| chip.take(*byte));
+        for byte in bytes {
+            chip.take(*byte);
+        }
         chip.stop();
     }
 

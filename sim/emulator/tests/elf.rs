@@ -26,7 +26,9 @@ fn file(machine: u16, address: u32, vectors: [u32; 2]) -> Vec<u8> {
     for word in [1, 84, address, address, 8, 8, 4, 4] {
         bytes.extend(word.to_le_bytes());
     }
-    vectors.into_iter().for_each(|vector| bytes.extend(vector.to_le_bytes()));
+    for vector in vectors {
+        bytes.extend(vector.to_le_bytes());
+    }
     bytes
 }
 

@@ -57,7 +57,7 @@ impl Run<'_> {
                 // Short instructions leave the flags alone in a block.
                 self.execute(instruction, length == 4)?;
             }
-            self.set_it_state(if state & 7 == 0 { 0 } else { state & 0xe0 | state << 1 & 0x1f });
+            self.set_it_state(if state.trailing_zeros() >= 3 { 0 } else { state & 0xe0 | state << 1 & 0x1f });
         }
         self.r[15] = self.next;
         self.now += self.cycles;
@@ -82,7 +82,7 @@ impl Run<'_> {
             Insn::Adr { rd, imm, add } => self.set(rd, moved(self.r[15] & !3, imm, add)),
             Insn::MovImm16 { top: false, rd, imm } => self.set(rd, imm.into()),
             Insn::MovImm16 { top: true, rd, imm } => {
-                self.set(rd, self.get(rd) & 0xffff | u32::from(imm) << 16)
+                self.set(rd, self.get(rd) & 0xffff | u32::from(imm) << 16);
             }
             Insn::Branch { cond, offset } => {
                 if cond.is_none_or(|cond| cond.passes(self.xpsr)) {
@@ -94,11 +94,11 @@ impl Run<'_> {
                 self.branch(self.r[15].wrapping_add_signed(offset));
             }
             Insn::Bx { rm } => {
-                let target = self.code(self.get(rm))?;
+                let target = Self::code(self.get(rm))?;
                 self.branch(target);
             }
             Insn::Blx { rm } => {
-                let target = self.code(self.get(rm))?;
+                let target = Self::code(self.get(rm))?;
                 self.r[14] = self.next | 1;
                 self.branch(target);
             }
@@ -140,7 +140,7 @@ impl Run<'_> {
                 let base = if rn == 15 { self.r[15] & !3 } else { self.get(rn) };
                 let there = moved(base, imm, add);
                 let address = if index { there } else { base };
-                if !address.is_multiple_of(4) || !self.is_plain(address, 8, !load) {
+                if !address.is_multiple_of(4) || !Self::is_plain(address, 8, !load) {
                     return None;
                 }
                 if load {
@@ -157,7 +157,7 @@ impl Run<'_> {
             }
             Insn::LoadStoreExclusive { load, size, rd, rt, rn, imm } => {
                 let address = self.get(rn).wrapping_add(imm);
-                if !address.is_multiple_of(size.bytes()) || !self.is_plain(address, size.bytes(), !load) {
+                if !address.is_multiple_of(size.bytes()) || !Self::is_plain(address, size.bytes(), !load) {
                     return None;
                 }
                 if load {
@@ -316,7 +316,7 @@ impl Run<'_> {
         (rn, base): (u8, Option<u32>),
     ) -> Option<()> {
         if rt == 15 {
-            let target = self.code(self.peek(address, 4)?)?;
+            let target = Self::code(self.peek(address, 4)?)?;
             self.cycles += 1;
             self.branch(target);
         } else {
@@ -343,12 +343,12 @@ impl Run<'_> {
         let base = self.get(rn);
         let start = if before { base.wrapping_sub(bytes) } else { base };
         let after = if before { start } else { base.wrapping_add(bytes) };
-        if list == 0 || !start.is_multiple_of(4) || !self.is_plain(start, bytes, !load) {
+        if list == 0 || !start.is_multiple_of(4) || !Self::is_plain(start, bytes, !load) {
             return None;
         }
         // The last of them, before anything has changed.
         let target = if load && list >> 15 == 1 {
-            Some(self.code(self.peek(start.wrapping_add(bytes - 4), 4)?)?)
+            Some(Self::code(self.peek(start.wrapping_add(bytes - 4), 4)?)?)
         } else {
             None
         };
@@ -381,7 +381,7 @@ impl Run<'_> {
 
     /// A table in memory without side effects.
     fn load_plain(&mut self, address: u32, bytes: u32) -> Option<u32> {
-        if !address.is_multiple_of(bytes) || !self.is_plain(address, bytes, false) {
+        if !address.is_multiple_of(bytes) || !Self::is_plain(address, bytes, false) {
             return None;
         }
         self.load(address, bytes)
@@ -389,7 +389,7 @@ impl Run<'_> {
 
     /// A target that stays in the program; the end of an exception, and code of another state, are the core's.
     #[inline]
-    fn code(&self, target: u32) -> Option<u32> {
+    fn code(target: u32) -> Option<u32> {
         (target & 1 == 1 && target < EXCEPTION_RETURN).then_some(target & !1)
     }
 

@@ -54,7 +54,7 @@ impl Run<'_> {
     }
 
     /// All of a block lies in RAM, or in flash to be read.
-    pub(super) fn is_plain(&self, address: u32, bytes: u32, write: bool) -> bool {
+    pub(super) fn is_plain(address: u32, bytes: u32, write: bool) -> bool {
         inside(address, bytes, RAM.start, RAM.end).is_some()
             || !write && inside(address, bytes, FLASH.start, FLASH.end).is_some()
     }
