@@ -1,4 +1,5 @@
 //! Files that are no programs for this chip are refused, each with what is wrong with it.
+#![cfg(test)]
 
 use std::path::Path;
 use zygote_emulator::{ElfError, Image};
