@@ -1,7 +1,7 @@
 //! Scenario files on the emulated board: the program that is flashed, its pins, timers, watchdog and serial line, with the
 //! real controller and the simulated plant. Ignored unless asked for, because the program has to be built first:
 //! `cargo xtask emulator`.
-#![cfg(test)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

@@ -1,5 +1,5 @@
 //! Files that are no programs for this chip are refused, each with what is wrong with it.
-#![cfg(test)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::path::Path;
 use zygote_emulator::{ElfError, Image};

@@ -206,5 +206,5 @@ fn interrupts_and_control_ticks_are_in_time_while_a_hinge_is_heated() {
         assert!(latency.worst_ps < 100_000_000, "interrupt {number} waited {} ps", latency.worst_ps);
     }
     assert!(most - least < 500_000_000, "{} ps", most - least);
-    assert!(matches!(host.ask(Command::Progress { first: 0 }), Ok(_)));
+    assert!(host.ask(Command::Progress { first: 0 }).is_ok());
 }
