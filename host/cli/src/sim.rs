@@ -54,17 +54,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                 None => serve(&mut trial.open().or_bad_input()?),
             }
         }
-        (_, schedule) => match image {
-            Some(image) => {
+        (_, schedule) => {
+            if let Some(image) = image {
                 let board =
                     zygote_rehearsal::emulated(&image, &rig, schedule.as_ref(), identity::fresh().into());
                 serve(&mut board.or_bad_input()?)
-            }
-            None => {
+            } else {
                 let board = zygote_rehearsal::board(&rig, schedule.as_ref(), identity::fresh());
                 serve(&mut board.or_bad_input()?)
             }
-        },
+        }
     }
 }
 
