@@ -6,14 +6,17 @@ use zygote_protocol::Micros;
 
 /// Bytes in, bytes out, and a virtual clock that somebody moves on.
 pub trait Device {
+    /// Why it can't go on.
+    type Error: std::error::Error + Send + Sync + 'static;
+
     /// Virtual time.
     fn now(&self) -> Micros;
 
     /// Moves time on to `until`, or less far.
     ///
     /// # Errors
-    /// [`PlantError`] for what the plant can't do.
-    fn advance(&mut self, until: Micros) -> Result<(), PlantError>;
+    /// What it is made of can't do that.
+    fn advance(&mut self, until: Micros) -> Result<(), Self::Error>;
 
     /// Takes bytes from the host, now.
     fn receive(&mut self, bytes: &[u8]);
@@ -23,6 +26,8 @@ pub trait Device {
 }
 
 impl Device for Board {
+    type Error = PlantError;
+
     fn now(&self) -> Micros {
         Self::now(self)
     }

@@ -1,7 +1,6 @@
 //! Serves a simulated board on a pseudo-terminal, in real time: any serial program can open it.
 
 use crate::device::Device;
-use crate::plant::PlantError;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fd::OwnedFd;
 use rustix::fs::{Mode, OFlags};
@@ -31,9 +30,9 @@ pub enum ServeError {
         #[source]
         source: io::Error,
     },
-    /// The plant refused.
-    #[error(transparent)]
-    Plant(#[from] PlantError),
+    /// The board refused.
+    #[error("the board can't go on")]
+    Device(#[source] Box<dyn std::error::Error + Send + Sync>),
 }
 
 fn terminal(what: &'static str) -> impl Fn(rustix::io::Errno) -> ServeError {
@@ -93,7 +92,7 @@ impl Pty {
             let elapsed = u64::try_from(wall.duration_since(before).as_micros()).unwrap_or(u64::MAX);
             let until = Micros(board.now().0.saturating_add(elapsed.min(MOST_AT_ONCE.to_micros())));
             while board.now() < until {
-                board.advance(until)?;
+                board.advance(until).map_err(|error| ServeError::Device(Box::new(error)))?;
             }
             if readable {
                 let count = rustix::io::read(&self.master, &mut buffer[..]).map_err(terminal("reading"))?;

@@ -26,6 +26,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-core",
             "zygote-protocol",
             "zygote-sim",
+            "zygote-emulator",
         ],
     ),
     (
@@ -37,6 +38,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-protocol",
             "zygote-rehearsal",
             "zygote-sim",
+            "zygote-emulator",
         ],
     ),
     ("zygote-parts", &["zygote-core", "zygote-protocol"]),

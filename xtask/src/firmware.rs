@@ -29,7 +29,7 @@ const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_PACKAGES: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "lld"];
 /// The oldest compiler that the workspace takes (`rust-version` in its manifest).
-const OLDEST_MINOR: u32 = 90;
+const OLDEST_MINOR: u32 = 91;
 
 /// Builds and measures every board.
 pub(crate) fn run() -> Result<()> {

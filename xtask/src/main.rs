@@ -6,6 +6,7 @@ mod bench;
 mod campaign;
 mod demo;
 mod docs;
+mod emulator;
 mod figures;
 mod firmware;
 mod fuzz;
@@ -36,6 +37,11 @@ const PARTS: &[Part] = &[
         verb: "figures",
         about: "what the core takes at most, counted on the emulated processor",
         run: || figures::run(&[]),
+    },
+    Part {
+        verb: "emulator",
+        about: "the board's program, as just built, on an emulated chip",
+        run: emulator::run,
     },
 ];
 

@@ -1,11 +1,14 @@
-//! `zygote sim`: a simulated board on a pseudo-terminal, in real time, for any program that opens a serial port.
+//! `zygote sim`: a simulated board on a pseudo-terminal, in real time, for any program that opens a serial port; or the
+//! real board's program on an emulated chip.
 
 use crate::failure::{Failure, OrFail};
 use crate::output::say;
 use crate::{identity, input, interrupt};
+use anyhow::Context;
 use clap::Args;
 use std::io::{self, Write};
 use std::path::PathBuf;
+use zygote_emulator::{EmulatedBoard, Image};
 use zygote_rehearsal::Scenario;
 use zygote_sim::{Device, Pty};
 
@@ -24,6 +27,9 @@ pub(crate) struct Arguments {
     /// What goes wrong, and when
     #[arg(long, value_name = "FILE", requires = "plan")]
     scenario: Option<PathBuf>,
+    /// Run this program, as built for the NUCLEO-F446RE, on an emulated chip instead of the simulated board
+    #[arg(long, value_name = "ELF")]
+    emulate: Option<PathBuf>,
 }
 
 /// Prints the device on a line of its own, then serves until Ctrl-C.
@@ -33,14 +39,30 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => Some(input::schedule(path, &input::plan(path)?, &rig, arguments.schedule.as_deref())?),
         None => None,
     };
+    let image = match &arguments.emulate {
+        Some(path) => Some(Image::open(path).with_context(|| path.display().to_string()).or_bad_input()?),
+        None => None,
+    };
     match (&arguments.scenario, schedule) {
         (Some(path), Some(schedule)) => {
             let trial = Scenario::open(path).or_bad_input()?.trial_of(rig, schedule).or_bad_input()?;
-            serve(&mut trial.open().or_bad_input()?)
+            match image {
+                Some(image) => {
+                    let board = EmulatedBoard::new(&image, &trial.plant, identity::fresh().into());
+                    serve(&mut trial.open_on(board.or_bad_input()?))
+                }
+                None => serve(&mut trial.open().or_bad_input()?),
+            }
         }
         (_, schedule) => {
-            let board = zygote_rehearsal::board(&rig, schedule.as_ref(), identity::fresh());
-            serve(&mut board.or_bad_input()?)
+            if let Some(image) = image {
+                let board =
+                    zygote_rehearsal::emulated(&image, &rig, schedule.as_ref(), identity::fresh().into());
+                serve(&mut board.or_bad_input()?)
+            } else {
+                let board = zygote_rehearsal::board(&rig, schedule.as_ref(), identity::fresh());
+                serve(&mut board.or_bad_input()?)
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A simulated board as a rig file describes it.
 
 use zygote_deployment::{Drive, Fitting, Rig, RigError, Schedule, SmaPlant};
+use zygote_emulator::{EmulatedBoard, EmulatorError, Image};
 use zygote_protocol::Channels;
 use zygote_sim::Board;
 use zygote_sim::plant::{Config, PlantError, ServoConfig, SmaConfig, SpringConfig, SupplyConfig};
@@ -23,6 +24,9 @@ pub enum BoardError {
     /// Physics that can't be.
     #[error(transparent)]
     Plant(#[from] PlantError),
+    /// The emulated board can't go on.
+    #[error(transparent)]
+    Emulator(#[from] EmulatorError),
 }
 
 /// The channels of a rig's only node.
@@ -43,6 +47,20 @@ pub fn channels(rig: &Rig) -> Result<Channels, BoardError> {
 /// [`BoardError`].
 pub fn board(rig: &Rig, schedule: Option<&Schedule>, boot: u32) -> Result<Board, BoardError> {
     Ok(Board::new(&plant(rig, schedule)?, channels(rig)?, boot)?)
+}
+
+/// The board of a rig's node, as [`board`], with a program of its own that runs on an emulated chip. The seed is that of
+/// what its memory holds at the start.
+///
+/// # Errors
+/// [`BoardError`], among others for a rig with more channels than the board has.
+pub fn emulated(
+    image: &Image,
+    rig: &Rig,
+    schedule: Option<&Schedule>,
+    seed: u64,
+) -> Result<EmulatedBoard, BoardError> {
+    Ok(EmulatedBoard::new(image, &plant(rig, schedule)?, seed)?)
 }
 
 /// The physics behind the board of [`board`].

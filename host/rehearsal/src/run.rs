@@ -4,13 +4,14 @@ use crate::board::{BoardError, channels, plant};
 use crate::cause::{Cause, Way};
 use crate::script::Script;
 use crate::stage::Stage;
+use crate::subject::Subject;
 use crate::witness::{Watch, Witness};
 use std::collections::BTreeSet;
 use std::io;
 use zygote_controller::{Deployment, EventLog, RunReport, Session, deploy};
 use zygote_deployment::{Rig, Schedule};
 use zygote_protocol::{Micros, Millis};
-use zygote_sim::plant::{Config, PlantError};
+use zygote_sim::plant::Config;
 use zygote_sim::{Board, Impairment};
 
 /// How long an answer to the hello is waited for.
@@ -89,7 +90,18 @@ impl Trial {
     /// # Errors
     /// A rig that can't be simulated, or a cause that its plant can't have.
     pub fn run(&self) -> Result<Rehearsed, BoardError> {
-        let mut stage = self.open()?;
+        self.run_in(self.open()?)
+    }
+
+    /// Runs it on another board than the simulated one.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn run_on<B: Subject>(&self, board: B) -> Result<Rehearsed, BoardError> {
+        self.run_in(self.open_on(board))
+    }
+
+    fn run_in<B: Subject>(&self, mut stage: Stage<B>) -> Result<Rehearsed, BoardError> {
         let stop = stage.user_stops();
         let ending = match Session::connect(&mut stage, NUMBER, HELLO_PATIENCE) {
             Err(error) => Ending::Refused(error.to_string()),
@@ -115,7 +127,7 @@ impl Trial {
     ///
     /// # Errors
     /// A cause that the plant can't have.
-    pub fn close(&self, mut stage: Stage, ending: Ending) -> Result<Rehearsed, BoardError> {
+    pub fn close<B: Subject>(&self, mut stage: Stage<B>, ending: Ending) -> Result<Rehearsed, BoardError> {
         let ending = if stage.host_is_killed() { Ending::Killed } else { ending };
         let (ended_at, overran) = (stage.board().now(), stage.is_over());
         watch(&mut stage, ended_at.plus(self.afterwards))?;
@@ -128,14 +140,18 @@ impl Trial {
     /// # Errors
     /// A rig that can't be simulated.
     pub fn open(&self) -> Result<Stage, BoardError> {
-        let board = Board::new(&self.plant, channels(&self.rig)?, NUMBER)?;
+        Ok(self.open_on(Board::new(&self.plant, channels(&self.rig)?, NUMBER)?))
+    }
+
+    /// The stage with another board than the simulated one.
+    pub fn open_on<B: Subject>(&self, board: B) -> Stage<B> {
         let witness = Witness::new(&self.schedule, self.bounds(), &board, self.log);
         let mut stage = Stage::new(board, witness, Script::new(self.causes.clone()), self.seed)
             .until(Micros(0).plus(self.most));
         for (way, impairment) in &self.line {
             stage.impair(*way, *impairment);
         }
-        Ok(stage)
+        stage
     }
 
     /// Silence of the host after which the MCU turns everything off.
@@ -161,7 +177,7 @@ impl Trial {
 }
 
 /// Lets time pass without a host.
-fn watch(stage: &mut Stage, until: Micros) -> Result<(), PlantError> {
+fn watch<B: Subject>(stage: &mut Stage<B>, until: Micros) -> Result<(), BoardError> {
     while stage.board().now() < until {
         stage.step(until)?;
     }

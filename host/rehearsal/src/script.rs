@@ -1,8 +1,8 @@
 //! The causes of a rehearsal in the course of it: which wait, which are due, which have happened.
 
 use crate::cause::{Cause, What, When};
+use crate::subject::Subject;
 use zygote_protocol::Micros;
-use zygote_sim::Board;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stage {
@@ -56,7 +56,7 @@ impl Script {
     }
 
     /// Takes what is to happen now, one cause at a time.
-    pub(crate) fn take(&mut self, board: &Board) -> Option<What> {
+    pub(crate) fn take(&mut self, board: &impl Subject) -> Option<What> {
         let now = board.now();
         for (cause, stage) in &mut self.causes {
             if *stage == Stage::Waiting && holds(cause.when, board) {
@@ -76,11 +76,11 @@ impl Script {
     }
 }
 
-fn holds(when: When, board: &Board) -> bool {
+fn holds(when: When, board: &impl Subject) -> bool {
     match when {
         When::At(at) => board.now() >= at,
-        When::State(state) => board.core().state() == state,
-        When::Step { step, state } => board.core().step_states().nth(step) == Some(state),
+        When::State(state) => board.state() == state,
+        When::Step { step, state } => board.step_states().get(step) == Some(&state),
         When::Above { channel, celsius } => {
             board.plant().sma_hinges().get(channel).is_some_and(|hinge| hinge.temperature_c() > celsius)
         }

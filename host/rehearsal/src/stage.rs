@@ -7,13 +7,14 @@
 //!                                Witness           what was truly the case
 //! ```
 
+use crate::board::BoardError;
 use crate::cause::{Way, What};
 use crate::script::Script;
+use crate::subject::Subject;
 use crate::witness::Witness;
 use std::cell::Cell;
 use std::rc::Rc;
 use zygote_protocol::{Hello, Link, MAX_ENCODED, Micros, Urgent};
-use zygote_sim::plant::PlantError;
 use zygote_sim::{Board, Chance, Device, Impairment, Line, Wire};
 
 /// Session of a second host; that of the first one is another.
@@ -22,8 +23,8 @@ const SECOND_SESSION: u32 = 0xdead_beef;
 const MOST_REPLAYED: usize = 1 << 16;
 
 /// Everything but the host.
-pub struct Stage {
-    board: Board,
+pub struct Stage<B = Board> {
+    board: B,
     line: Line,
     script: Script,
     witness: Witness,
@@ -39,9 +40,9 @@ pub struct Stage {
     end: Micros,
 }
 
-impl Stage {
+impl<B: Subject> Stage<B> {
     /// A board on a good line, with causes that wait; `seed` is that of all chance on the line.
-    pub fn new(board: Board, witness: Witness, script: Script, seed: u64) -> Self {
+    pub fn new(board: B, witness: Witness, script: Script, seed: u64) -> Self {
         Self {
             board,
             line: Line::new(seed),
@@ -64,7 +65,7 @@ impl Stage {
     }
 
     /// The board, for a look at the truth.
-    pub fn board(&self) -> &Board {
+    pub fn board(&self) -> &B {
         &self.board
     }
 
@@ -104,7 +105,7 @@ impl Stage {
     }
 
     /// Takes bytes from the host.
-    pub(crate) fn take_from_host(&mut self, bytes: &[u8]) -> Result<(), PlantError> {
+    pub(crate) fn take_from_host(&mut self, bytes: &[u8]) -> Result<(), BoardError> {
         if self.tape.len() + bytes.len() <= MOST_REPLAYED {
             self.tape.extend_from_slice(bytes);
         }
@@ -113,12 +114,12 @@ impl Stage {
     }
 
     /// Moves time on to `until`, or to the next thing that happens.
-    pub(crate) fn step(&mut self, until: Micros) -> Result<(), PlantError> {
+    pub(crate) fn step(&mut self, until: Micros) -> Result<(), BoardError> {
         let from = self.board.now();
         let arrivals = [self.line.to_board.next_arrival(), self.line.to_host.next_arrival()];
         let next = arrivals.into_iter().chain([self.script.next_time()]).flatten().min();
         let to = next.map_or(until, |next| next.min(until)).max(from);
-        let then = self.board.core().state();
+        let then = self.board.state();
         self.board.advance(to)?;
         self.witness.look(from, then, &self.board);
         self.witness.look_at_decisions(&self.board);
@@ -126,7 +127,7 @@ impl Stage {
     }
 
     /// Lets everything happen that is due now.
-    fn settle(&mut self) -> Result<(), PlantError> {
+    fn settle(&mut self) -> Result<(), BoardError> {
         loop {
             let now = self.board.now();
             let mut quiet = true;
@@ -162,7 +163,7 @@ impl Stage {
         }
     }
 
-    fn happen(&mut self, what: &What) -> Result<(), PlantError> {
+    fn happen(&mut self, what: &What) -> Result<(), BoardError> {
         let now = self.board.now();
         self.witness.say(now, || format!("*** {what}"));
         match what {
@@ -228,12 +229,14 @@ impl Stage {
     }
 }
 
-impl Device for Stage {
+impl<B: Subject> Device for Stage<B> {
+    type Error = BoardError;
+
     fn now(&self) -> Micros {
         self.board.now()
     }
 
-    fn advance(&mut self, until: Micros) -> Result<(), PlantError> {
+    fn advance(&mut self, until: Micros) -> Result<(), BoardError> {
         self.step(until)
     }
 

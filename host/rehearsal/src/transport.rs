@@ -1,11 +1,12 @@
 //! The simulated line as the controller sees it: waiting for bytes is what makes the virtual clock run.
 
 use crate::stage::Stage;
+use crate::subject::Subject;
 use std::io;
 use zygote_controller::Transport;
 use zygote_protocol::Micros;
 
-impl Transport for Stage {
+impl<B: Subject> Transport for Stage<B> {
     fn now(&self) -> Micros {
         self.board().now()
     }
@@ -33,7 +34,7 @@ impl Transport for Stage {
 }
 
 /// Borrowed, so that the stage is still there when a session ends or none comes about.
-impl Transport for &mut Stage {
+impl<B: Subject> Transport for &mut Stage<B> {
     fn now(&self) -> Micros {
         Transport::now(&**self)
     }
@@ -51,7 +52,7 @@ impl Transport for &mut Stage {
     }
 }
 
-impl Stage {
+impl<B: Subject> Stage<B> {
     /// The host's process runs, and time isn't over.
     fn alive(&self) -> io::Result<()> {
         if self.host_is_killed() {

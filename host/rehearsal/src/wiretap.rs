@@ -7,6 +7,8 @@ use zygote_protocol::{Decoder, FrameKind, Micros, granted_session};
 #[derive(Debug, Default)]
 pub struct Wiretap {
     decoder: Decoder,
+    /// The session that the latest hello asked for, and when, if it isn't known yet what was granted.
+    asked: Option<(u32, Micros)>,
     /// The session that the latest hello opened.
     pub session: Option<u32>,
     /// When the latest frame of that session arrived; a hello is none.
@@ -14,22 +16,34 @@ pub struct Wiretap {
 }
 
 impl Wiretap {
-    /// Listens to bytes that reach a board of this boot now.
-    pub(crate) fn hear(&mut self, now: Micros, boot: u32, mut bytes: &[u8]) {
+    /// Listens to bytes that reach a board now; `boot` is its boot, as far as that is known.
+    pub(crate) fn hear(&mut self, now: Micros, boot: Option<u32>, mut bytes: &[u8]) {
         while let Some(frame) = self.decoder.next(&mut bytes) {
             let Ok(header) = frame else { continue };
             match header.kind {
                 FrameKind::Hello => {
-                    let granted = Some(granted_session(header.session, boot));
-                    if self.session != granted {
-                        self.session = granted;
+                    self.asked = Some((header.session, now));
+                    self.grant(boot);
+                }
+                FrameKind::HelloReply | FrameKind::Reset => {}
+                _ => {
+                    self.grant(boot);
+                    if self.session == Some(header.session) {
                         self.last_frame = Some(now);
                     }
                 }
-                FrameKind::HelloReply | FrameKind::Reset => {}
-                _ if self.session == Some(header.session) => self.last_frame = Some(now),
-                _ => {}
             }
+        }
+    }
+
+    /// A hello opens its session as soon as the board's boot is known.
+    fn grant(&mut self, boot: Option<u32>) {
+        let Some(boot) = boot else { return };
+        let Some((session, at)) = self.asked.take() else { return };
+        let granted = Some(granted_session(session, boot));
+        if self.session != granted {
+            self.session = granted;
+            self.last_frame = Some(at);
         }
     }
 }

@@ -1,10 +1,10 @@
 //! What was truly the case in the course of a rehearsal: currents, temperatures and angles of the plant, and when the
 //! board last heard its host. It looks after every step of the virtual clock; nothing it notes comes from messages.
 
+use crate::subject::Subject;
 use crate::wiretap::Wiretap;
 use zygote_deployment::{Kind, Schedule};
 use zygote_protocol::{Fault, Micros, Millis, State, StepState};
-use zygote_sim::Board;
 use zygote_sim::plant::{ServoHinge, SpringHinge};
 
 /// A hinge is at its angle within this, degrees.
@@ -100,7 +100,7 @@ pub struct Witness {
 
 impl Witness {
     /// Nothing seen yet of a board that is to run a schedule.
-    pub fn new(schedule: &Schedule, watch: Watch, board: &Board, with_log: bool) -> Self {
+    pub fn new(schedule: &Schedule, watch: Watch, board: &impl Subject, with_log: bool) -> Self {
         let hinges = schedule
             .steps
             .iter()
@@ -128,7 +128,7 @@ impl Witness {
             over_current: Vec::new(),
             unarmed: Vec::new(),
             unheard: Vec::new(),
-            states: vec![(board.now(), board.core().state())],
+            states: vec![(board.now(), board.state())],
             faults: Vec::new(),
             heard: Wiretap::default(),
             log: with_log.then(Vec::new),
@@ -136,7 +136,7 @@ impl Witness {
     }
 
     /// Looks at the time from `from` until now, in which the MCU was in the state `then` and drove what it drove.
-    pub(crate) fn look(&mut self, from: Micros, then: State, board: &Board) {
+    pub(crate) fn look(&mut self, from: Micros, then: State, board: &impl Subject) {
         let span = Span { from, to: board.now() };
         let plant = board.plant();
         let current_a = plant.supply_a();
@@ -159,7 +159,7 @@ impl Witness {
         self.look_at_hinges(span, board);
     }
 
-    fn look_at_hinges(&mut self, span: Span, board: &Board) {
+    fn look_at_hinges(&mut self, span: Span, board: &impl Subject) {
         let (now, plant) = (board.now(), board.plant());
         for hinge in &mut self.hinges {
             let angle = match hinge.kind {
@@ -181,13 +181,13 @@ impl Witness {
     }
 
     /// Looks at what the MCU decided just now.
-    pub(crate) fn look_at_decisions(&mut self, board: &Board) {
+    pub(crate) fn look_at_decisions(&mut self, board: &impl Subject) {
         let now = board.now();
-        let state = board.core().state();
+        let state = board.state();
         if self.states.last().is_none_or(|(_, last)| *last != state) {
             self.states.push((now, state));
             self.say(now, || format!("MCU {state:?}"));
-            if let Some(fault) = board.core().fault()
+            if let Some(fault) = board.fault()
                 && self.faults.last() != Some(&fault)
             {
                 self.faults.push(fault);
@@ -200,10 +200,10 @@ impl Witness {
         }
     }
 
-    fn look_at_steps(&mut self, board: &Board) {
+    fn look_at_steps(&mut self, board: &impl Subject) {
         let now = board.now();
         let mut said = Vec::new();
-        for (hinge, state) in self.hinges.iter_mut().zip(board.core().step_states()) {
+        for (hinge, state) in self.hinges.iter_mut().zip(board.step_states()) {
             if hinge.state != state {
                 if state == StepState::Moving {
                     hinge.starts += 1;
@@ -219,18 +219,12 @@ impl Witness {
         }
     }
 
-    fn look_at_order(&mut self, board: &Board) {
-        let outputs = board.core().outputs();
+    fn look_at_order(&mut self, board: &impl Subject) {
         for at in 0..self.hinges.len() {
             let Some(HingeTruth { kind, channel, driven_at: None, .. }) = self.hinges.get(at) else {
                 continue;
             };
-            let driven = match kind {
-                Kind::Sma => outputs.heaters.get(*channel).is_some_and(|duty| duty.per_mille() > 0),
-                Kind::Servo => outputs.servos.get(*channel).is_some_and(Option::is_some),
-                Kind::Spring => outputs.springs.get(*channel).is_some_and(|on| *on),
-            };
-            if driven {
+            if board.drives(*kind, *channel) {
                 let closed = |before: &usize| self.hinges.get(*before).is_some_and(|hinge| !hinge.is_open());
                 let before =
                     self.hinges.get(at).map(|hinge| hinge.after.iter().copied().filter(closed).collect());
