@@ -57,7 +57,7 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
     }
     println!("\nRandom solids of 20 to 400 voxels:\n");
     let mut campaign = cargo();
-    campaign.args(["run", "--quiet", "--release", "--package", "zygote-stacking", "--example", "campaign"]);
+    campaign.args(["run", "--quiet", "--release", "--package", "zygote-stacking", "--example", "solids"]);
     print!("{}", tools::output_of(campaign.current_dir(tools::root()))?);
     if beside_peers { peers::run(&bench) } else { Ok(()) }
 }

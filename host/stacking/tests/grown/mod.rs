@@ -1,4 +1,4 @@
-//! Seeded random solids of one piece and without cavities, for the campaign (`examples/campaign.rs`) and its short version
+//! Seeded random solids of one piece and without cavities, for the campaign (`examples/solids.rs`) and its short version
 //! among the tests: lumps, tendrils, thin plates, and dense boxes full of tunnels and of edges where two sheets touch.
 
 use super::boundary::{Voxel, boundary};
