@@ -67,9 +67,9 @@ impl Shared {
     pub(crate) fn read(&self, address: u32) -> Option<u32> {
         let mut peripherals = self.peripherals();
         let mut now = self.now();
-        // A program that asks again and again whether a conversion is over gets its answer when it is, or when something
-        // else happens: the same course of events, without a thousand rounds of the same loop.
-        if let Some(over) = peripherals.awaited(address) {
+        // A program that asks again and again whether a conversion is over, or what a counter shows, gets its answer when there
+        // is another one, or when something else happens: the same course of events, without a thousand rounds of one loop.
+        if let Some(over) = peripherals.awaited(address, now) {
             now = over.min(self.horizon.load(Ordering::Relaxed)).max(now);
             self.set_now(now);
         }

@@ -13,7 +13,7 @@ use crate::pins::{ACTUATORS, Drive, PwmTimers, SELECT, STOP, drive};
 use crate::plain::Plain;
 use crate::rcc::{Bus, Rcc, Reset};
 use crate::time::Clock;
-use crate::timers::{Kind, Timer};
+use crate::timers::{self, Kind, Timer};
 use crate::usart::Usart;
 use crate::watchdog::Watchdog;
 
@@ -38,6 +38,9 @@ const TIMERS: [TimerPlace; 8] = [
 ];
 /// Those that drive heaters come first.
 const PWM_TIMERS: usize = 4;
+
+/// A program that reads a counter more often than this, and nothing else meanwhile, waits for it.
+const POLLS: u32 = 3;
 
 /// The converter's channel behind the multiplexer.
 const THERMISTORS: u32 = 0;
@@ -77,6 +80,8 @@ pub(crate) struct Peripherals {
     watchdog: Watchdog,
     i2c: I2c,
     servos: Pca9685,
+    /// How often a counter was read since anything else was touched.
+    polls: u32,
 }
 
 impl Peripherals {
@@ -118,6 +123,7 @@ impl Peripherals {
             watchdog: Watchdog::new(),
             i2c: I2c::new(),
             servos: Pca9685::new(),
+            polls: 0,
         }
     }
 
@@ -187,6 +193,7 @@ impl Peripherals {
     }
 
     pub(crate) fn write(&mut self, address: u32, value: u32, now: u64) -> Option<After> {
+        self.polls = 0;
         let word = address & !3;
         let offset = word & 0x3ff;
         if let Some(at) = timer_at(word) {
@@ -289,9 +296,16 @@ impl Peripherals {
         self.watchdog.due().map(|due| self.clock.cycles(due))
     }
 
-    /// When the conversion under way is over, if a program that reads here waits for that.
-    pub(crate) fn awaited(&self, address: u32) -> Option<u64> {
-        (address == 0x4001_2000).then(|| self.adc.over()).flatten()
+    /// Until when a program that reads here waits: for the end of the conversion under way, or for the next value of a counter
+    /// that it has read again and again without touching anything else.
+    pub(crate) fn awaited(&mut self, address: u32, now: u64) -> Option<u64> {
+        let counter = timer_at(address).filter(|_| address & 0x3ff == timers::CNT);
+        self.polls = if counter.is_some() { self.polls.saturating_add(1) } else { 0 };
+        match counter {
+            Some(timer) if self.polls > POLLS => self.timers[timer].next_count(now),
+            Some(_) => None,
+            None => (address == 0x4001_2000).then(|| self.adc.over()).flatten(),
+        }
     }
 
     fn refuse(&mut self, address: u32, write: bool) {

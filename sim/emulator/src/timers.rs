@@ -9,7 +9,7 @@ const SR: u32 = 0x10;
 const EGR: u32 = 0x14;
 const CCMR1: u32 = 0x18;
 const CCER: u32 = 0x20;
-const CNT: u32 = 0x24;
+pub(crate) const CNT: u32 = 0x24;
 const PSC: u32 = 0x28;
 const ARR: u32 = 0x2c;
 const CCR1: u32 = 0x34;
@@ -195,6 +195,12 @@ impl Timer {
             }
         }
         self.seen = until;
+    }
+
+    /// When the counter shows its next value; `None` while it stands.
+    pub(crate) fn next_count(&self, now: u64) -> Option<u64> {
+        let counts = self.get(CR1) & CEN != 0;
+        counts.then(|| self.origin + ((now - self.origin) / self.tick() + 1) * self.tick())
     }
 
     fn count(&self, now: u64) -> u32 {
