@@ -163,6 +163,11 @@ fn s13_no_setting_goes_beyond_the_board() {
         bench.ask(Command::Configure(Settings { ceiling: hot, ..compiled() })),
         refused(RefusalCode::LimitAboveCeiling, 0, 12_000, 12_001)
     );
+    let strong = Limits { supply: Milliamps(1_001), ..compiled().ceiling };
+    assert_eq!(
+        bench.ask(Command::Configure(Settings { ceiling: strong, ..compiled() })),
+        refused(RefusalCode::LimitAboveCeiling, 3, 1_000, 1_001)
+    );
     assert_eq!(
         bench.ask(Command::Configure(Settings { longest_pulse_us: 2_501, ..compiled() })),
         refused(RefusalCode::ServoRange, 0, 2_500, 2_501)
