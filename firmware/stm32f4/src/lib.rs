@@ -20,6 +20,7 @@ mod sensors;
 mod servo_bus;
 mod servo_gate;
 mod shell;
+mod standstill;
 mod stop;
 mod supervisor;
 mod tasks;

@@ -1,9 +1,9 @@
 //! The flash behind what outlives power: sectors 1 and 2, 16 KiB each, which the linker script keeps free of code.
 //!
 //! Erasing halts the processor for up to 0.8 s, because code runs from the same flash. It happens at the start and while settings are
-//! stored, with everything off, and the watchdog is told before.
+//! stored, with everything off; the watchdog is told before, and the clock stopped and set right.
 
-use crate::supervisor;
+use crate::{standstill, supervisor};
 use embassy_stm32::{
     Peri,
     flash::{Bank1Region1, Blocking, Flash},
@@ -28,7 +28,8 @@ impl Keeping {
     /// The number of this start, which no other had; `first` if there is no earlier one. `None` if that can't be had.
     /// The watchdog is patient at the start.
     pub(crate) fn count_start(&mut self, first: u32) -> Option<u32> {
-        said(self.0.as_mut()?.count_start(first))
+        let memory = self.0.as_mut()?;
+        said(standstill::through(|| memory.count_start(first)))
     }
 
     /// The settings that were kept.
@@ -40,7 +41,7 @@ impl Keeping {
     pub(crate) fn keep(&mut self, settings: &Settings) -> bool {
         let Some(memory) = &mut self.0 else { return false };
         supervisor::be_patient();
-        let kept = said(memory.keep(settings)).is_some();
+        let kept = said(standstill::through(|| memory.keep(settings))).is_some();
         supervisor::be_strict();
         kept
     }

@@ -6,7 +6,7 @@ use crate::{
     board::{HEATERS, SERVOS, SPRINGS, STEPS},
     dead_man,
     memory::Keeping,
-    reset,
+    reset, standstill,
 };
 use core::cell::RefCell;
 use embassy_sync::{
@@ -71,5 +71,5 @@ impl Shell {
 
 /// Time since the start.
 pub(crate) fn now() -> Micros {
-    Micros(Instant::now().as_micros())
+    Micros(Instant::now().as_micros() + standstill::stopped_us())
 }

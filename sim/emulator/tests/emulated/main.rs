@@ -5,3 +5,4 @@
 
 mod host;
 mod rules;
+mod standstill;
