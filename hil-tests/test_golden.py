@@ -11,6 +11,8 @@ from zygote_wire.commands import Heat, Release, Step, Turn
 from zygote_wire.frames import Frame, Kind
 from zygote_wire.hello import SCHEMA, Hello, Limits, Settings
 
+pytestmark = pytest.mark.smoke
+
 BOOK = Path(__file__).parent.parent / "docs/src"
 PAGE = (BOOK / "protocol.md").read_text()
 

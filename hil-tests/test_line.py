@@ -13,6 +13,8 @@ from zygote_wire.link import Link, SessionLost
 from zygote_wire.postcard import varint
 from zygote_wire.reports import Rejected, State
 
+pytestmark = pytest.mark.smoke
+
 UNKNOWN_KIND = 9
 
 
@@ -31,6 +33,7 @@ def test_noise_on_an_idle_line_leaves_the_mcu_able_to_answer(port, session, rng)
     assert link.status().state == State.IDLE
 
 
+@pytest.mark.faults
 def test_noise_between_frames_of_a_run_changes_nothing(link, program, mcu, rng):
     for step in (
         lambda: run.load(link, program),
@@ -54,6 +57,7 @@ def test_a_line_that_loses_a_third_of_all_frames_carries_a_program(link, program
     assert (status.state, status.run) == (State.LOADED, run.RUN)
 
 
+@pytest.mark.faults
 def test_a_line_that_sends_everything_twice_executes_once(link, program, mcu):
     once = link.port.send
 
