@@ -9,7 +9,7 @@ from bench import run
 from zygote_wire import commands, postcard, reports
 from zygote_wire.codes import Refused
 from zygote_wire.frames import LONGEST_PAYLOAD, Frame, Kind
-from zygote_wire.link import Link, SessionLost
+from zygote_wire.link import WINDOW, Link, SessionLost
 from zygote_wire.postcard import varint
 from zygote_wire.reports import Rejected, State
 
@@ -103,6 +103,19 @@ def test_a_gap_is_asked_for_with_a_nack(port, session):
     heard = port.listen(0.3)
     assert [frame.ack for frame in heard if frame.kind == Kind.NACK] == [0]
     assert not [frame for frame in heard if frame.kind == Kind.DATA]
+
+
+def test_all_that_was_not_heard_is_said_again_as_often_as_asked(port, session):
+    link = Link(port, session)
+    link.hello()
+    for number in range(WINDOW):
+        status = commands.Request(number, commands.Status())
+        port.send(Frame(Kind.DATA, link.session, seq=number, payload=postcard.encode(status)))
+    port.listen(0.2)
+    for _ in range(5):
+        port.send(Frame(Kind.NACK, link.session))
+        again = {frame.seq for frame in port.listen(0.2) if frame.kind == Kind.DATA}
+        assert again == set(range(WINDOW))
 
 
 def test_torn_frames_are_not_taken_and_the_next_frame_is(port):
