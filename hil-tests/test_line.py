@@ -1,5 +1,6 @@
 """What a bad line does: noise, repetitions, torn and oversized frames."""
 
+import collections
 import random
 import time
 
@@ -105,17 +106,18 @@ def test_a_gap_is_asked_for_with_a_nack(port, session):
     assert not [frame for frame in heard if frame.kind == Kind.DATA]
 
 
-def test_all_that_was_not_heard_is_said_again_as_often_as_asked(port, session):
+def test_all_that_was_not_heard_is_said_again_again_and_again(port, session):
     link = Link(port, session)
     link.hello()
     for number in range(WINDOW):
         status = commands.Request(number, commands.Status())
         port.send(Frame(Kind.DATA, link.session, seq=number, payload=postcard.encode(status)))
-    port.listen(0.2)
-    for _ in range(5):
+    heard = collections.Counter()
+    # Some of them mean the same loss as the one before.
+    for _ in range(5 * WINDOW):
         port.send(Frame(Kind.NACK, link.session))
-        again = {frame.seq for frame in port.listen(0.2) if frame.kind == Kind.DATA}
-        assert again == set(range(WINDOW))
+        heard.update(frame.seq for frame in port.listen(0.03) if frame.kind == Kind.DATA)
+    assert sorted(heard) == list(range(WINDOW)) and min(heard.values()) >= 3
 
 
 def test_torn_frames_are_not_taken_and_the_next_frame_is(port):
