@@ -1,5 +1,6 @@
 """What a bad line does: noise, repetitions, torn and oversized frames."""
 
+import collections
 import random
 import time
 
@@ -9,7 +10,7 @@ from bench import run
 from zygote_wire import commands, postcard, reports
 from zygote_wire.codes import Refused
 from zygote_wire.frames import LONGEST_PAYLOAD, Frame, Kind
-from zygote_wire.link import Link, SessionLost
+from zygote_wire.link import WINDOW, Link, SessionLost
 from zygote_wire.postcard import varint
 from zygote_wire.reports import Rejected, State
 
@@ -103,6 +104,20 @@ def test_a_gap_is_asked_for_with_a_nack(port, session):
     heard = port.listen(0.3)
     assert [frame.ack for frame in heard if frame.kind == Kind.NACK] == [0]
     assert not [frame for frame in heard if frame.kind == Kind.DATA]
+
+
+def test_all_that_was_not_heard_is_said_again_again_and_again(port, session):
+    link = Link(port, session)
+    link.hello()
+    for number in range(WINDOW):
+        status = commands.Request(number, commands.Status())
+        port.send(Frame(Kind.DATA, link.session, seq=number, payload=postcard.encode(status)))
+    heard = collections.Counter()
+    # Some of them mean the same loss as the one before.
+    for _ in range(5 * WINDOW):
+        port.send(Frame(Kind.NACK, link.session))
+        heard.update(frame.seq for frame in port.listen(0.03) if frame.kind == Kind.DATA)
+    assert sorted(heard) == list(range(WINDOW)) and min(heard.values()) >= 3
 
 
 def test_torn_frames_are_not_taken_and_the_next_frame_is(port):

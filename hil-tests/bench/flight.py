@@ -33,7 +33,7 @@ class Flight:
         elif data.kind == Kind.DATA:
             self._log("sent", *_read(commands.Request, data))
         elif data.kind not in (Kind.ACK, Kind.URGENT_ACK):
-            self._log("sent", data.kind.name)
+            self._log("sent", getattr(data.kind, "name", f"kind {data.kind}"))
 
     def heard(self, frame: Frame) -> None:
         """Takes down what came."""
