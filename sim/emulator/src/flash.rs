@@ -2,8 +2,7 @@
 //! time that it takes is a stall.
 
 use crate::chip::FLASH;
-use rsemu::core::space::RamStore;
-use rsemu::core::value::{Endian, Width};
+use crate::store::Store;
 use std::sync::Arc;
 
 const KEYR: u32 = 0x04;
@@ -30,7 +29,7 @@ const PROGRAM_US: u64 = 100;
 /// The array, which outlives resets, and its controller, which doesn't.
 #[derive(Debug)]
 pub(crate) struct Flash {
-    pub(crate) array: Arc<RamStore>,
+    pub(crate) array: Arc<Store>,
     registers: [u32; (END / 4) as usize],
     /// Keys given so far.
     keys: usize,
@@ -41,7 +40,7 @@ pub(crate) struct Flash {
 }
 
 impl Flash {
-    pub(crate) fn new(array: Arc<RamStore>) -> Self {
+    pub(crate) fn new(array: Arc<Store>) -> Self {
         let mut flash =
             Self { array, registers: [0; (END / 4) as usize], keys: 0, stall_us: 0, changed: false };
         flash.reset();
@@ -90,20 +89,13 @@ impl Flash {
             self.registers[(SR / 4) as usize] |= SEQUENCE_ERROR;
             return;
         }
-        let width = match bytes {
-            1 => Width::U8,
-            2 => Width::U16,
-            _ => Width::U32,
-        };
         if 1 << (control >> 8 & 3) != bytes {
             self.registers[(SR / 4) as usize] |= WIDTH_ERROR;
             return;
         }
-        let at = u64::from(address - FLASH.start);
-        if let Ok(before) = self.array.read_value(at, width, Endian::Little) {
-            // The same place was just read.
-            let written = self.array.write_value(at, width, before & u64::from(value), Endian::Little);
-            self.changed |= written.is_ok();
+        let at = address - FLASH.start;
+        if let Some(before) = self.array.read(at, bytes) {
+            self.changed |= self.array.write(at, bytes, before & value).is_some();
         }
         self.stall_us += PROGRAM_US;
     }
@@ -125,7 +117,8 @@ impl Flash {
             return;
         };
         let at: u32 = SECTORS.iter().take(sector).map(|(size, _)| size * 1024).sum();
-        self.changed |= self.array.fill(at.into(), u64::from(size * 1024), 0xff).is_ok();
+        self.array.fill(at, size * 1024, u32::MAX);
+        self.changed = true;
         self.stall_us += time * 1000;
     }
 
@@ -140,13 +133,13 @@ mod tests {
 
     const WORDS: u32 = 2 << 8;
 
-    fn word(flash: &Flash, at: u64) -> u64 {
-        flash.array.read_value(at, Width::U32, Endian::Little).unwrap()
+    fn word(flash: &Flash, at: u32) -> u32 {
+        flash.array.read(at, 4).unwrap()
     }
 
     #[test]
     fn a_locked_flash_keeps_what_it_holds_and_an_unlocked_one_only_loses_ones() {
-        let mut flash = Flash::new(Arc::new(RamStore::new(512 * 1024)));
+        let mut flash = Flash::new(Arc::new(Store::new(512 * 1024)));
         let place = FLASH.start + 0x4000;
         flash.write(CR, PROGRAM | WORDS);
         flash.program(place, 4, 5);

@@ -1,0 +1,545 @@
+//! The commonest instructions in eight bytes each, with what their address says already worked out: most of what a program
+//! executes, and small enough for the host's cache. The rest is executed as it was decoded ([`super::exec`]).
+
+use super::alu::{shifted_by, sum};
+use super::exec::{C, N, Run, V, Z};
+use crate::chip::FLASH;
+use crate::store::Store;
+use rsemu::cpu::arm::v7m::isa::{Cond, DpOp, ExtendOp, Insn, MemOffset, Operand, Shift, ShiftType, Size};
+
+/// A width in memory; signed ones are seldom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cell {
+    Byte,
+    Half,
+    Word,
+}
+
+impl Cell {
+    #[inline]
+    const fn bytes(self) -> u32 {
+        match self {
+            Self::Byte => 1,
+            Self::Half => 2,
+            Self::Word => 4,
+        }
+    }
+}
+
+/// An instruction. None of its registers is the program counter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Op {
+    /// As decoded, at this place of the list.
+    Whole(u32),
+    Value {
+        rd: u8,
+        value: u32,
+    },
+    ValueFlags {
+        rd: u8,
+        value: u32,
+    },
+    Top {
+        rd: u8,
+        value: u32,
+    },
+    /// A literal that lies in the flash.
+    Literal {
+        rd: u8,
+        value: u32,
+    },
+    Copy {
+        rd: u8,
+        rm: u8,
+    },
+    AddValue {
+        rd: u8,
+        rn: u8,
+        value: u32,
+    },
+    AddValueFlags {
+        rd: u8,
+        rn: u8,
+        value: u32,
+    },
+    /// Adds the inverse and one.
+    LessValueFlags {
+        rd: u8,
+        rn: u8,
+        inverse: u32,
+    },
+    CompareValue {
+        rn: u8,
+        inverse: u32,
+    },
+    Add {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+        shift: Shift,
+    },
+    AddFlags {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+    },
+    Less {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+    },
+    LessFlags {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+    },
+    Compare {
+        rn: u8,
+        rm: u8,
+    },
+    AndValue {
+        rd: u8,
+        rn: u8,
+        value: u32,
+    },
+    OrValue {
+        rd: u8,
+        rn: u8,
+        value: u32,
+    },
+    TestValue {
+        rn: u8,
+        value: u32,
+    },
+    And {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+        shift: Shift,
+    },
+    Or {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+        shift: Shift,
+    },
+    Xor {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+        shift: Shift,
+    },
+    /// A shift, or no shift, by what stands in the instruction.
+    Shifted {
+        rd: u8,
+        rm: u8,
+        shift: Shift,
+    },
+    ShiftedFlags {
+        rd: u8,
+        rm: u8,
+        shift: Shift,
+    },
+    /// Bits from `low` on, of which the mask tells how many.
+    Bits {
+        rd: u8,
+        rn: u8,
+        low: u8,
+        mask: u32,
+    },
+    Multiply {
+        rd: u8,
+        rn: u8,
+        rm: u8,
+    },
+    Load {
+        cell: Cell,
+        rt: u8,
+        rn: u8,
+        offset: u32,
+    },
+    Store {
+        cell: Cell,
+        rt: u8,
+        rn: u8,
+        offset: u32,
+    },
+    LoadIndexed {
+        cell: Cell,
+        rt: u8,
+        rn: u8,
+        rm: u8,
+        lsl: u8,
+    },
+    StoreIndexed {
+        cell: Cell,
+        rt: u8,
+        rn: u8,
+        rm: u8,
+        lsl: u8,
+    },
+    LoadBlock {
+        rn: u8,
+        wback: bool,
+        before: bool,
+        list: u16,
+    },
+    StoreBlock {
+        rn: u8,
+        wback: bool,
+        before: bool,
+        list: u16,
+    },
+    Branch {
+        target: u32,
+    },
+    BranchIf {
+        cond: Cond,
+        target: u32,
+    },
+    IfZero {
+        rn: u8,
+        target: u32,
+    },
+    IfNotZero {
+        rn: u8,
+        target: u32,
+    },
+    Call {
+        target: u32,
+    },
+    CallBy {
+        rm: u8,
+    },
+    Return {
+        rm: u8,
+    },
+}
+
+/// Which of the sixteen values of the flags let a condition pass, a bit each.
+const PASSES: [u16; 16] = {
+    let mut table = [0; 16];
+    let mut at = 0;
+    while at < 256 {
+        #[expect(clippy::cast_possible_truncation, reason = "below 16")]
+        let cond = Cond(at as u8 & 15);
+        if cond.passes(at >> 4 << 28) {
+            table[(at & 15) as usize] |= 1 << (at >> 4);
+        }
+        at += 1;
+    }
+    table
+};
+
+/// The brief form, for those that have one.
+pub(super) fn brief(instruction: &Insn, pc: u32, flash: &Store) -> Option<Op> {
+    let here = pc.wrapping_add(4);
+    Some(match *instruction {
+        Insn::DataProc { op, s, rd, rn, operand } => return data(op, s, rd, rn, operand),
+        Insn::Adr { rd, imm, add } if rd < 15 => {
+            let base = here & !3;
+            Op::Value { rd, value: if add { base.wrapping_add(imm) } else { base.wrapping_sub(imm) } }
+        }
+        Insn::MovImm16 { top: false, rd, imm } if rd < 15 => Op::Value { rd, value: imm.into() },
+        Insn::MovImm16 { top: true, rd, imm } if rd < 15 => Op::Top { rd, value: u32::from(imm) << 16 },
+        Insn::Branch { cond: None, offset } => Op::Branch { target: here.wrapping_add_signed(offset) },
+        Insn::Branch { cond: Some(cond), offset } if cond.0 < 16 => {
+            Op::BranchIf { cond, target: here.wrapping_add_signed(offset) }
+        }
+        Insn::BranchLink { offset } => Op::Call { target: here.wrapping_add_signed(offset) },
+        Insn::Bx { rm } if rm < 15 => Op::Return { rm },
+        Insn::Blx { rm } if rm < 15 => Op::CallBy { rm },
+        Insn::Cbz { nonzero: false, rn, offset } if rn < 15 => {
+            Op::IfZero { rn, target: here.wrapping_add(offset) }
+        }
+        Insn::Cbz { nonzero: true, rn, offset } if rn < 15 => {
+            Op::IfNotZero { rn, target: here.wrapping_add(offset) }
+        }
+        Insn::LoadStore {
+            load, size, signed: false, rt, rn, offset, index: true, add, wback: false, ..
+        } if rt < 15 && rn < 15 => {
+            let cell = match size {
+                Size::Byte => Cell::Byte,
+                Size::Half => Cell::Half,
+                Size::Word => Cell::Word,
+            };
+            match (offset, load) {
+                (MemOffset::Imm(by), true) => Op::Load { cell, rt, rn, offset: signed(by, add) },
+                (MemOffset::Imm(by), false) => Op::Store { cell, rt, rn, offset: signed(by, add) },
+                (MemOffset::Reg { rm, lsl }, true) if add && rm < 15 => {
+                    Op::LoadIndexed { cell, rt, rn, rm, lsl }
+                }
+                (MemOffset::Reg { rm, lsl }, false) if add && rm < 15 => {
+                    Op::StoreIndexed { cell, rt, rn, rm, lsl }
+                }
+                (MemOffset::Reg { .. }, _) => return None,
+            }
+        }
+        Insn::LoadLiteral { size: Size::Word, signed: false, rt, imm, add } if rt < 15 => {
+            let address = (here & !3).wrapping_add(signed(imm, add));
+            let offset = address.checked_sub(FLASH.start)?;
+            Op::Literal { rd: rt, value: flash.read(offset, 4)? }
+        }
+        Insn::LoadStoreMultiple { load: true, rn, list, wback, before } if rn < 15 => {
+            Op::LoadBlock { rn, wback, before, list }
+        }
+        Insn::LoadStoreMultiple { load: false, rn, list, wback, before } if rn < 15 && list >> 15 == 0 => {
+            Op::StoreBlock { rn, wback, before, list }
+        }
+        Insn::Mul { rd, rn, rm, ra: None, s: false, .. } if rd < 15 && rn < 15 && rm < 15 => {
+            Op::Multiply { rd, rn, rm }
+        }
+        Insn::Extend { op: ExtendOp::Uxtb, rd, rn: 15, rm, rotate: 0 } if rd < 15 && rm < 15 => {
+            Op::AndValue { rd, rn: rm, value: 0xff }
+        }
+        Insn::Extend { op: ExtendOp::Uxth, rd, rn: 15, rm, rotate: 0 } if rd < 15 && rm < 15 => {
+            Op::AndValue { rd, rn: rm, value: 0xffff }
+        }
+        Insn::Bitfield { op: rsemu::cpu::arm::v7m::isa::BitfieldOp::Ubfx, rd, rn, lsb, width }
+            if rd < 15 && rn < 15 =>
+        {
+            Op::Bits { rd, rn, low: lsb & 31, mask: u32::MAX >> (32 - u32::from(width).clamp(1, 32)) }
+        }
+        _ => return None,
+    })
+}
+
+fn signed(by: u32, add: bool) -> u32 {
+    if add { by } else { by.wrapping_neg() }
+}
+
+/// Arithmetic with a register or a value.
+fn data(op: DpOp, flags: bool, rd: u8, rn: u8, operand: Operand) -> Option<Op> {
+    let moves = matches!(op, DpOp::Mov | DpOp::Mvn);
+    if !op.is_test() && rd >= 15 || !moves && rn >= 15 {
+        return None;
+    }
+    match operand {
+        Operand::Imm { value, carry } => value_op(op, flags, rd, rn, value, carry.is_some()),
+        Operand::Reg { rm, shift } if rm < 15 => register_op(op, flags, rd, rn, rm, shift),
+        Operand::Reg { .. } => None,
+    }
+}
+
+/// `carries`: the value's own carry goes to the flags of what is no sum.
+fn value_op(op: DpOp, flags: bool, rd: u8, rn: u8, value: u32, carries: bool) -> Option<Op> {
+    Some(match (op, flags) {
+        (DpOp::Mov, false) => Op::Value { rd, value },
+        (DpOp::Mov, true) if !carries => Op::ValueFlags { rd, value },
+        (DpOp::Mvn, false) => Op::Value { rd, value: !value },
+        (DpOp::Add, false) => Op::AddValue { rd, rn, value },
+        (DpOp::Sub, false) => Op::AddValue { rd, rn, value: value.wrapping_neg() },
+        (DpOp::Add, true) => Op::AddValueFlags { rd, rn, value },
+        (DpOp::Sub, true) => Op::LessValueFlags { rd, rn, inverse: !value },
+        (DpOp::Cmp, true) => Op::CompareValue { rn, inverse: !value },
+        (DpOp::And, false) => Op::AndValue { rd, rn, value },
+        (DpOp::Bic, false) => Op::AndValue { rd, rn, value: !value },
+        (DpOp::Orr, false) => Op::OrValue { rd, rn, value },
+        (DpOp::Tst, true) if !carries => Op::TestValue { rn, value },
+        _ => return None,
+    })
+}
+
+fn register_op(op: DpOp, flags: bool, rd: u8, rn: u8, rm: u8, shift: Shift) -> Option<Op> {
+    let plain = shift.is_none();
+    // The carry comes into what is shifted.
+    if shift.ty == ShiftType::Rrx {
+        return None;
+    }
+    Some(match (op, flags) {
+        (DpOp::Mov, false) if plain => Op::Copy { rd, rm },
+        (DpOp::Mov, false) => Op::Shifted { rd, rm, shift },
+        (DpOp::Mov, true) => Op::ShiftedFlags { rd, rm, shift },
+        (DpOp::Add, false) => Op::Add { rd, rn, rm, shift },
+        (DpOp::Add, true) if plain => Op::AddFlags { rd, rn, rm },
+        (DpOp::Sub, false) if plain => Op::Less { rd, rn, rm },
+        (DpOp::Sub, true) if plain => Op::LessFlags { rd, rn, rm },
+        (DpOp::Cmp, true) if plain => Op::Compare { rn, rm },
+        (DpOp::And, false) => Op::And { rd, rn, rm, shift },
+        (DpOp::Orr, false) => Op::Or { rd, rn, rm, shift },
+        (DpOp::Eor, false) => Op::Xor { rd, rn, rm, shift },
+        _ => return None,
+    })
+}
+
+impl Run<'_> {
+    /// Executes one outside of an IT block; one that can't be finished gives `None` before it has changed anything.
+    #[expect(clippy::too_many_lines, reason = "one arm an instruction")]
+    #[inline]
+    pub(super) fn brief(&mut self, op: Op, pc: u32, length: u32) -> Option<()> {
+        self.next = pc.wrapping_add(length);
+        self.cycles = 1;
+        match op {
+            // Not these.
+            Op::Whole(_) => return None,
+            Op::Value { rd, value } => self.put(rd, value),
+            Op::ValueFlags { rd, value } => {
+                self.put(rd, value);
+                self.sign(value);
+            }
+            Op::Top { rd, value } => self.put(rd, self.at(rd) & 0xffff | value),
+            Op::Literal { rd, value } => {
+                self.put(rd, value);
+                self.cycles = 2;
+            }
+            Op::Copy { rd, rm } => self.put(rd, self.at(rm)),
+            Op::AddValue { rd, rn, value } => self.put(rd, self.at(rn).wrapping_add(value)),
+            Op::AddValueFlags { rd, rn, value } => {
+                let result = self.summed(self.at(rn), value, false);
+                self.put(rd, result);
+            }
+            Op::LessValueFlags { rd, rn, inverse } => {
+                let result = self.summed(self.at(rn), inverse, true);
+                self.put(rd, result);
+            }
+            Op::CompareValue { rn, inverse } => {
+                self.summed(self.at(rn), inverse, true);
+            }
+            Op::Add { rd, rn, rm, shift } => {
+                self.put(rd, self.at(rn).wrapping_add(self.shifted(rm, shift)));
+            }
+            Op::AddFlags { rd, rn, rm } => {
+                let result = self.summed(self.at(rn), self.at(rm), false);
+                self.put(rd, result);
+            }
+            Op::Less { rd, rn, rm } => self.put(rd, self.at(rn).wrapping_sub(self.at(rm))),
+            Op::LessFlags { rd, rn, rm } => {
+                let result = self.summed(self.at(rn), !self.at(rm), true);
+                self.put(rd, result);
+            }
+            Op::Compare { rn, rm } => {
+                self.summed(self.at(rn), !self.at(rm), true);
+            }
+            Op::AndValue { rd, rn, value } => self.put(rd, self.at(rn) & value),
+            Op::OrValue { rd, rn, value } => self.put(rd, self.at(rn) | value),
+            Op::TestValue { rn, value } => self.sign(self.at(rn) & value),
+            Op::And { rd, rn, rm, shift } => self.put(rd, self.at(rn) & self.shifted(rm, shift)),
+            Op::Or { rd, rn, rm, shift } => self.put(rd, self.at(rn) | self.shifted(rm, shift)),
+            Op::Xor { rd, rn, rm, shift } => self.put(rd, self.at(rn) ^ self.shifted(rm, shift)),
+            Op::Shifted { rd, rm, shift } => self.put(rd, self.shifted(rm, shift)),
+            Op::ShiftedFlags { rd, rm, shift } => {
+                let (result, carry) = shifted_by(shift, self.at(rm), self.xpsr & C != 0);
+                self.put(rd, result);
+                self.sign(result);
+                self.xpsr = self.xpsr & !C | if carry { C } else { 0 };
+            }
+            Op::Bits { rd, rn, low, mask } => self.put(rd, self.at(rn) >> low & mask),
+            Op::Multiply { rd, rn, rm } => self.put(rd, self.at(rn).wrapping_mul(self.at(rm))),
+            Op::Load { cell, rt, rn, offset } => {
+                let value = self.load(self.at(rn).wrapping_add(offset), cell.bytes())?;
+                self.put(rt, value);
+            }
+            Op::Store { cell, rt, rn, offset } => {
+                self.store(self.at(rn).wrapping_add(offset), cell.bytes(), self.at(rt))?;
+            }
+            Op::LoadIndexed { cell, rt, rn, rm, lsl } => {
+                let value = self.load(self.at(rn).wrapping_add(self.at(rm) << lsl), cell.bytes())?;
+                self.put(rt, value);
+            }
+            Op::StoreIndexed { cell, rt, rn, rm, lsl } => {
+                self.store(self.at(rn).wrapping_add(self.at(rm) << lsl), cell.bytes(), self.at(rt))?;
+            }
+            Op::LoadBlock { rn, wback, before, list } => self.block(true, rn, list, wback, before)?,
+            Op::StoreBlock { rn, wback, before, list } => self.block(false, rn, list, wback, before)?,
+            Op::Branch { target } => self.branch(target),
+            Op::BranchIf { cond, target } => {
+                if PASSES[usize::from(cond.0 & 15)] >> (self.xpsr >> 28) & 1 == 1 {
+                    self.branch(target);
+                }
+            }
+            Op::IfZero { rn, target } => {
+                if self.at(rn) == 0 {
+                    self.branch(target);
+                }
+            }
+            Op::IfNotZero { rn, target } => {
+                if self.at(rn) != 0 {
+                    self.branch(target);
+                }
+            }
+            Op::Call { target } => {
+                self.r[14] = self.next | 1;
+                self.branch(target);
+            }
+            Op::CallBy { rm } => {
+                let target = Self::code(self.at(rm))?;
+                self.r[14] = self.next | 1;
+                self.branch(target);
+            }
+            Op::Return { rm } => {
+                let target = Self::code(self.at(rm))?;
+                self.branch(target);
+            }
+        }
+        self.now += self.cycles;
+        Some(())
+    }
+
+    #[inline]
+    fn at(&self, register: u8) -> u32 {
+        self.r[usize::from(register & 15)]
+    }
+
+    #[inline]
+    fn put(&mut self, register: u8, value: u32) {
+        self.r[usize::from(register & 15)] = value;
+    }
+
+    #[inline]
+    fn shifted(&self, rm: u8, shift: Shift) -> u32 {
+        shifted_by(shift, self.at(rm), false).0
+    }
+
+    /// Sign and zero.
+    #[inline]
+    fn sign(&mut self, value: u32) {
+        self.xpsr = self.xpsr & !(N | Z) | value & N | u32::from(value == 0) << 30;
+    }
+
+    /// A sum that sets all flags.
+    #[inline]
+    fn summed(&mut self, a: u32, b: u32, carry: bool) -> u32 {
+        let (result, carry, overflow) = sum(a, b, carry);
+        self.xpsr = self.xpsr & !(N | Z | C | V)
+            | result & N
+            | u32::from(result == 0) << 30
+            | u32::from(carry) << 29
+            | u32::from(overflow) << 28;
+        result
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_instruction_takes_eight_bytes() {
+        assert_eq!(size_of::<Op>(), 8);
+    }
+
+    #[test]
+    fn conditions_pass_as_the_core_says() {
+        for cond in (0..16).map(Cond) {
+            for flags in 0..16_u32 {
+                let passes = PASSES[usize::from(cond.0)] >> flags & 1 == 1;
+                assert_eq!(passes, cond.passes(flags << 28), "{cond:?}, flags {flags:04b}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_touches_the_program_counter_or_needs_the_carry_has_no_brief_form() {
+        let flash = Store::new(16);
+        let shift = Shift { ty: ShiftType::Rrx, amount: 1 };
+        for (op, rd, rn, operand) in [
+            (DpOp::Mov, 15, 0, Operand::Reg { rm: 14, shift: Shift { ty: ShiftType::Lsl, amount: 0 } }),
+            (DpOp::Add, 0, 15, Operand::Imm { value: 4, carry: None }),
+            (DpOp::Mov, 0, 0, Operand::Reg { rm: 1, shift }),
+            (DpOp::Adc, 0, 1, Operand::Imm { value: 4, carry: None }),
+        ] {
+            let instruction = Insn::DataProc { op, s: false, rd, rn, operand };
+            assert_eq!(brief(&instruction, FLASH.start, &flash), None, "{instruction:?}");
+        }
+    }
+}
