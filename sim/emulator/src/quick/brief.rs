@@ -197,6 +197,11 @@ pub(super) enum Op {
         cond: Cond,
         target: u32,
     },
+    /// A branch back to the instruction before, which takes one off a register: a program that lets time pass.
+    Spin {
+        rd: u8,
+        target: u32,
+    },
     IfZero {
         rn: u8,
         target: u32,
@@ -215,6 +220,10 @@ pub(super) enum Op {
         rm: u8,
     },
 }
+
+const NOT_EQUAL: Cond = Cond(1);
+/// Cycles of a round of such a loop: the branch that is taken, and the subtraction.
+const ROUND: u64 = 4;
 
 /// Which of the sixteen values of the flags let a condition pass, a bit each.
 const PASSES: [u16; 16] = {
@@ -244,7 +253,11 @@ pub(super) fn brief(instruction: &Insn, pc: u32, flash: &Store) -> Option<Op> {
         Insn::MovImm16 { top: true, rd, imm } if rd < 15 => Op::Top { rd, value: u32::from(imm) << 16 },
         Insn::Branch { cond: None, offset } => Op::Branch { target: here.wrapping_add_signed(offset) },
         Insn::Branch { cond: Some(cond), offset } if cond.0 < 16 => {
-            Op::BranchIf { cond, target: here.wrapping_add_signed(offset) }
+            let target = here.wrapping_add_signed(offset);
+            match spins(cond, target, pc, flash) {
+                Some(rd) => Op::Spin { rd, target },
+                None => Op::BranchIf { cond, target },
+            }
         }
         Insn::BranchLink { offset } => Op::Call { target: here.wrapping_add_signed(offset) },
         Insn::Bx { rm } if rm < 15 => Op::Return { rm },
@@ -302,6 +315,22 @@ pub(super) fn brief(instruction: &Insn, pc: u32, flash: &Store) -> Option<Op> {
         }
         _ => return None,
     })
+}
+
+/// The register that a loop of two instructions counts down by one, if it does nothing else.
+fn spins(cond: Cond, target: u32, pc: u32, flash: &Store) -> Option<u8> {
+    let at = (target.checked_sub(FLASH.start)? / 2) as usize;
+    let back = pc.wrapping_sub(target);
+    if cond != NOT_EQUAL || !matches!(back, 2 | 4) {
+        return None;
+    }
+    match super::decoded(flash, at) {
+        (
+            Insn::DataProc { op: DpOp::Sub, s: true, rd, rn, operand: Operand::Imm { value: 1, .. } },
+            length,
+        ) if length == back && rd == rn && rd < 13 => Some(rd),
+        _ => None,
+    }
 }
 
 fn signed(by: u32, add: bool) -> u32 {
@@ -447,6 +476,12 @@ impl Run<'_> {
                     self.branch(target);
                 }
             }
+            Op::Spin { rd, target } => {
+                if self.xpsr & Z == 0 {
+                    self.spin(rd);
+                    self.branch(target);
+                }
+            }
             Op::IfZero { rn, target } => {
                 if self.at(rn) == 0 {
                     self.branch(target);
@@ -473,6 +508,19 @@ impl Run<'_> {
         }
         self.now += self.cycles;
         Some(())
+    }
+
+    /// The rounds of a loop that only counts, at once: all but the last, as far as nothing else happens meanwhile.
+    fn spin(&mut self, rd: u8) {
+        let value = self.at(rd);
+        let time = self.horizon.saturating_sub(self.now + 1) / ROUND;
+        let rounds = value.saturating_sub(1).min(u32::try_from(time).unwrap_or(u32::MAX));
+        if rounds > 0 {
+            let left = self.summed(value - rounds + 1, !1, true);
+            self.put(rd, left);
+            self.now += u64::from(rounds) * ROUND;
+            self.skipped += u64::from(rounds) * 2;
+        }
     }
 
     #[inline]

@@ -37,6 +37,10 @@ pub(super) struct Run<'a> {
     pub(super) ram: &'a Store,
     pub(super) shared: &'a Shared,
     pub(super) now: u64,
+    /// Nothing happens by itself before.
+    pub(super) horizon: u64,
+    /// Instructions of loops that were executed at once.
+    pub(super) skipped: u64,
     /// Where the program goes on.
     pub(super) next: u32,
     /// What the instruction takes.

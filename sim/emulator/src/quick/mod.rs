@@ -120,6 +120,8 @@ impl Quick {
             ram: &self.ram,
             shared,
             now: shared.now(),
+            horizon: start.horizon,
+            skipped: 0,
             next: regs.r[15],
             cycles: 0,
             touched: false,
@@ -176,7 +178,7 @@ impl Quick {
         regs.xpsr = run.xpsr;
         regs.primask = run.primask;
         self.exclusive = run.exclusive;
-        *instructions += executed;
+        *instructions += executed + run.skipped;
         end
     }
 }
