@@ -88,6 +88,8 @@ pub(crate) struct Chip {
     /// What the resets were for, and when they were, in picoseconds.
     resets: Vec<(u64, Reset)>,
     hung: Option<Stuck>,
+    /// The supply has failed.
+    off: bool,
     ram: Arc<Store>,
 }
 
@@ -103,12 +105,7 @@ impl Chip {
         let space = AddressSpace::new("stm32f446", 32);
         let ram = Arc::new(Store::new(RAM.len()));
         let quick = Quick::new(Arc::clone(&flash), Arc::clone(&ram));
-        let mut chance = Chance::new(seed);
-        for at in (0..RAM.end - RAM.start).step_by(8) {
-            let [a, b, c, d, e, f, g, h] = chance.bits().to_le_bytes();
-            ram.write(at, 4, u32::from_le_bytes([a, b, c, d]));
-            ram.write(at + 4, 4, u32::from_le_bytes([e, f, g, h]));
-        }
+        fill_by_chance(&ram, seed);
         let mut system = vec![0xff; SYSTEM.len()];
         let number = (UNIQUE_ID - SYSTEM.start) as usize;
         if let Some(place) = system.get_mut(number..number + NUMBER.len()) {
@@ -139,6 +136,7 @@ impl Chip {
             handlers: Vec::new(),
             resets: vec![(0, Reset::Power)],
             hung: None,
+            off: false,
             ram,
         })
     }
@@ -225,6 +223,35 @@ impl Chip {
         self.shared.look();
     }
 
+    /// Off, and on again.
+    pub(crate) fn power_cycle(&mut self, seed: u64) {
+        fill_by_chance(&self.ram, seed);
+        self.off = false;
+        self.reset(Reset::Power);
+    }
+
+    /// The supply fails in the `count`-th thing that the flash is told to do.
+    pub(crate) fn cut_power_in_flash(&mut self, count: u32) {
+        self.shared.peripherals().flash.fail_in(count);
+    }
+
+    pub(crate) fn is_off(&self) -> bool {
+        self.off
+    }
+
+    /// Bytes of the flash; none outside of it.
+    pub(crate) fn flash(&self, address: u32, count: u32) -> Vec<u8> {
+        let array = &self.shared.peripherals().flash.array;
+        let from = address.wrapping_sub(FLASH.start);
+        (from..from.saturating_add(count)).map_while(|at| Some(array.read(at, 1)?.to_le_bytes()[0])).collect()
+    }
+
+    /// Turns bits of a byte of the flash over.
+    pub(crate) fn spoil_flash(&mut self, address: u32, bits: u8) {
+        self.shared.peripherals().flash.spoil(address, bits);
+        self.shared.look();
+    }
+
     /// Lets the program run until a time in picoseconds, or until its outputs change.
     pub(crate) fn run(&mut self, until_ps: u64) -> Result<(), ChipError> {
         let before = self.drive();
@@ -245,6 +272,12 @@ impl Chip {
             self.reset(Reset::Watchdog);
         }
         self.shared.take_look();
+        if self.shared.peripherals().flash.has_failed() && !self.off {
+            // Everything loses its power: pins, peripherals, the watchdog; the core stands still.
+            self.reset(Reset::Power);
+            self.off = true;
+            self.hung = Some(Stuck::Everything);
+        }
         let mut peripherals = self.shared.peripherals();
         if peripherals.flash.take_changed() {
             self.quick.forget();
@@ -390,6 +423,16 @@ impl Chip {
 fn is_of_hardware(handler: Exception) -> bool {
     let number = handler.0.checked_sub(FIRST_INTERRUPT);
     number.is_some_and(|number| Peripherals::INTERRUPTS.contains(&number))
+}
+
+/// What memory holds when it gets its power.
+fn fill_by_chance(memory: &Store, seed: u64) {
+    let mut chance = Chance::new(seed);
+    for at in (0..RAM.end - RAM.start).step_by(8) {
+        let [a, b, c, d, e, f, g, h] = chance.bits().to_le_bytes();
+        memory.write(at, 4, u32::from_le_bytes([a, b, c, d]));
+        memory.write(at + 4, 4, u32::from_le_bytes([e, f, g, h]));
+    }
 }
 
 fn map_error(error: impl std::fmt::Display) -> ChipError {

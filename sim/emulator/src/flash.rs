@@ -23,6 +23,8 @@ const SEQUENCE_ERROR: u32 = 1 << 7;
 /// table 47).
 const SECTORS: [(u32, u64); 8] =
     [(16, 500), (16, 500), (16, 500), (16, 500), (64, 1100), (128, 2000), (128, 2000), (128, 2000)];
+/// Bits that aren't programmed yet when the supply fails in the middle.
+const HALF_DONE: u32 = 0x5555_5555;
 /// The longest that programming takes.
 const PROGRAM_US: u64 = 100;
 
@@ -37,12 +39,22 @@ pub(crate) struct Flash {
     stall_us: u64,
     /// Something in the array is not as it was.
     changed: bool,
+    /// The supply fails after so many more things that are done to the array.
+    failing: Option<u32>,
+    failed: bool,
 }
 
 impl Flash {
     pub(crate) fn new(array: Arc<Store>) -> Self {
-        let mut flash =
-            Self { array, registers: [0; (END / 4) as usize], keys: 0, stall_us: 0, changed: false };
+        let mut flash = Self {
+            array,
+            registers: [0; (END / 4) as usize],
+            keys: 0,
+            stall_us: 0,
+            changed: false,
+            failing: None,
+            failed: false,
+        };
         flash.reset();
         flash
     }
@@ -51,6 +63,33 @@ impl Flash {
         self.registers = [0; (END / 4) as usize];
         self.registers[(CR / 4) as usize] = LOCK;
         (self.keys, self.stall_us) = (0, 0);
+        (self.failing, self.failed) = (None, false);
+    }
+
+    /// The supply fails in the `count`-th thing from now on that is done to the array.
+    pub(crate) fn fail_in(&mut self, count: u32) {
+        self.failing = Some(count);
+    }
+
+    /// The supply has failed.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.failed
+    }
+
+    /// Turns bits of a byte over.
+    pub(crate) fn spoil(&mut self, address: u32, bits: u8) {
+        let at = address.wrapping_sub(FLASH.start);
+        if let Some(before) = self.array.read(at, 1) {
+            self.changed |= self.array.write(at, 1, before ^ u32::from(bits)).is_some();
+        }
+    }
+
+    /// The supply fails in this one.
+    fn fails_now(&mut self) -> bool {
+        let left = self.failing.map(|left| left.saturating_sub(1));
+        self.failed = left == Some(0);
+        self.failing = left.filter(|left| *left > 0);
+        self.failed
     }
 
     pub(crate) fn read(&self, offset: u32) -> u32 {
@@ -94,6 +133,8 @@ impl Flash {
             return;
         }
         let at = address - FLASH.start;
+        // Half of the bits are done when the supply fails.
+        let value = if self.fails_now() { value | HALF_DONE } else { value };
         if let Some(before) = self.array.read(at, bytes) {
             self.changed |= self.array.write(at, bytes, before & value).is_some();
         }
@@ -117,7 +158,8 @@ impl Flash {
             return;
         };
         let at: u32 = SECTORS.iter().take(sector).map(|(size, _)| size * 1024).sum();
-        self.array.fill(at, size * 1024, u32::MAX);
+        let erased = if self.fails_now() { size / 2 } else { *size };
+        self.array.fill(at, erased * 1024, u32::MAX);
         self.changed = true;
         self.stall_us += time * 1000;
     }

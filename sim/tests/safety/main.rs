@@ -4,4 +4,6 @@
 
 mod edges;
 mod host;
+#[path = "../host/mod.rs"]
+mod link_host;
 mod rules;

@@ -8,13 +8,15 @@ mod alu;
 mod brief;
 mod exec;
 mod float;
+mod lowering;
 mod memory;
 
 use crate::bus::Shared;
 use crate::chip::FLASH;
 use crate::store::Store;
-use brief::{Op, brief};
+use brief::Op;
 use exec::{IT, Run};
+use lowering::brief;
 use rsemu::cpu::arm::v7m::fp::Fpu;
 use rsemu::cpu::arm::v7m::isa::{Insn, decode, is_32bit};
 use rsemu::cpu::arm::v7m::{ArmV7m, Regs};
