@@ -10,8 +10,6 @@ use zygote_emulator::count::{Calls, CallsError, Linked, Taken};
 const MHZ: u64 = 166;
 /// Time between two control ticks.
 const TICK_US: u64 = 1_000;
-/// Time in which the core asks for the next one.
-const LATEST_TICK_US: u64 = 5_000;
 
 /// Milliseconds in which a stop has to act (S8).
 const STOP_MS: u64 = 10;
@@ -121,7 +119,6 @@ pub(crate) fn hold_times(pair: &Pair) -> Result<String, OverBudget> {
         from_flash,
         2 * TICK_US * MHZ,
     )?;
-    hold("cycles from flash until the next tick", from_flash, (LATEST_TICK_US - TICK_US) * MHZ)?;
     Ok(format!(
         "between two ticks while something may be energised: {cycles} cycles, {from_flash} from flash"
     ))
