@@ -121,7 +121,7 @@ impl<B: Subject> Stage<B> {
         let to = next.map_or(until, |next| next.min(until)).max(from);
         let then = self.board.state();
         self.board.advance(to)?;
-        self.witness.look(from, then, &self.board);
+        self.witness.look(from, self.board.state_meanwhile(then), &self.board);
         self.witness.look_at_decisions(&self.board);
         self.settle()
     }

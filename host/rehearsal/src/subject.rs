@@ -20,6 +20,10 @@ pub trait Subject {
     fn plant_mut(&mut self) -> &mut Plant;
     /// What the firmware core is doing.
     fn state(&self) -> State;
+    /// The state that it was in for the latest step of time, which was `before` when that began.
+    fn state_meanwhile(&self, before: State) -> State {
+        before
+    }
     /// Why it is in the safe state.
     fn fault(&self) -> Option<Fault>;
     /// The state of every step of its program; none where it has none.
@@ -126,6 +130,11 @@ impl Subject for EmulatedBoard {
 
     fn state(&self) -> State {
         self.snapshot().map_or(State::Idle, |snapshot| snapshot.state)
+    }
+
+    /// The program moves its pins first, and then keeps what it has decided.
+    fn state_meanwhile(&self, before: State) -> State {
+        if self.kept_behind_pins() { self.state() } else { before }
     }
 
     fn fault(&self) -> Option<Fault> {

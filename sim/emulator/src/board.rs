@@ -56,6 +56,10 @@ pub struct EmulatedBoard {
     plant_ps: u64,
     retained: Option<u32>,
     snapshot: Option<Snapshot>,
+    /// The pins changed at the end of the latest step of time; and in it, behind a change at its beginning, the program kept what
+    /// it had decided.
+    pins_changed: bool,
+    kept_behind_pins: bool,
     /// What was kept before the latest reset, and the number of resets by then.
     stale: (Option<Snapshot>, usize),
 }
@@ -78,6 +82,8 @@ impl EmulatedBoard {
             plant_ps: 0,
             retained: image.retained,
             snapshot: None,
+            pins_changed: false,
+            kept_behind_pins: false,
             stale: (None, 1),
         };
         board.sense();
@@ -160,6 +166,40 @@ impl EmulatedBoard {
         self.snapshot.as_ref()
     }
 
+    /// The latest step of time began with a change of the pins, and the program kept the decision behind it only then: what
+    /// [`Self::snapshot`] says now held from the beginning.
+    pub fn kept_behind_pins(&self) -> bool {
+        self.kept_behind_pins
+    }
+
+    /// Switches the board off and on again: only the flash keeps what it held. The seed is that of what the memory holds then.
+    pub fn power_cycle(&mut self, seed: u64) {
+        self.chip.power_cycle(seed);
+        self.snapshot = None;
+        self.stale = (None, self.chip.resets().len());
+    }
+
+    /// The supply fails while the program does its `count`-th thing with the flash from now on, 1 the next: programming a word,
+    /// or erasing a sector. That is left half done, and the board is off until [`Self::power_cycle`].
+    pub fn cut_power_in_flash(&mut self, count: u32) {
+        self.chip.cut_power_in_flash(count);
+    }
+
+    /// The supply has failed, and the board is off.
+    pub fn is_off(&self) -> bool {
+        self.chip.is_off()
+    }
+
+    /// Bytes of the flash from an address on; none where there is no flash.
+    pub fn flash(&self, address: u32, count: u32) -> Vec<u8> {
+        self.chip.flash(address, count)
+    }
+
+    /// Turns bits of a byte of the flash over, as age or radiation would.
+    pub fn spoil_flash(&mut self, address: u32, bits: u8) {
+        self.chip.spoil_flash(address, bits);
+    }
+
     /// Takes bytes from the host, now.
     pub fn receive(&mut self, bytes: &[u8]) {
         self.chip.send(bytes);
@@ -192,22 +232,26 @@ impl EmulatedBoard {
             },
         )?;
         self.sense();
-        self.recall();
+        let kept = self.recall();
+        self.kept_behind_pins = self.pins_changed && kept;
+        self.pins_changed = self.chip.drive() != drive;
         Ok(())
     }
 
     /// A snapshot that is just being written is not whole: the one before it stands until it is. After a reset it is the
-    /// one from before for a moment.
-    fn recall(&mut self) {
+    /// one from before for a moment. Whether there is a new one.
+    fn recall(&mut self) -> bool {
         let resets = self.chip.resets().len();
         if self.stale.1 != resets {
             self.stale = (self.snapshot.take(), resets);
         }
         let words = self.retained.and_then(|address| self.chip.words::<RETAINED_WORDS>(address));
         let kept = words.and_then(|words| Retained::from_words(&words).recall());
-        if kept.is_some() && kept != self.stale.0 {
+        let is_new = kept.is_some() && kept != self.stale.0 && kept != self.snapshot;
+        if is_new {
             self.snapshot = kept;
         }
+        is_new
     }
 
     fn sense(&mut self) {

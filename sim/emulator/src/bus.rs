@@ -3,8 +3,9 @@
 
 use crate::chip::FLASH;
 use crate::peripherals::{After, Peripherals};
+use crate::store::Store;
 use rsemu::core::BusError;
-use rsemu::core::space::{MemAttrs, MemOps, MemResult, RamStore};
+use rsemu::core::space::{MemAttrs, MemOps, MemResult};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -108,13 +109,13 @@ impl Shared {
 /// The flash as the core sees it: read like memory, written through its controller.
 #[derive(Debug)]
 pub(crate) struct FlashWindow {
-    pub(crate) array: Arc<RamStore>,
+    pub(crate) array: Arc<Store>,
     pub(crate) shared: Arc<Shared>,
 }
 
 impl MemOps for FlashWindow {
-    fn read(&self, offset: u64, bytes: &mut [u8], _attributes: MemAttrs) -> MemResult {
-        self.array.read_at(offset, bytes)
+    fn read(&self, offset: u64, bytes: &mut [u8], attributes: MemAttrs) -> MemResult {
+        MemOps::read(&*self.array, offset, bytes, attributes)
     }
 
     fn write(&self, offset: u64, bytes: &[u8], attributes: MemAttrs) -> MemResult {

@@ -14,11 +14,12 @@ use crate::flash::Flash;
 use crate::peripherals::{Peripherals, Unmodelled};
 use crate::pins::Drive;
 use crate::probe::{Latency, Probe};
-use crate::quick::{End, Quick};
+use crate::quick::{End, Quick, Start};
 use crate::rcc::Reset;
+use crate::store::Store;
 use rsemu::core::device::{Device, ResetKind};
-use rsemu::core::space::{AddressSpace, RamStore, Region, RomStore, RomWrite};
-use rsemu::cpu::arm::v7m::sys::Exception;
+use rsemu::core::space::{AddressSpace, Region, RomStore, RomWrite};
+use rsemu::cpu::arm::v7m::sys::{Exception, control, fpccr};
 use rsemu::cpu::arm::v7m::{ArmV7m, Config, Regs, xpsr};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -87,24 +88,24 @@ pub(crate) struct Chip {
     /// What the resets were for, and when they were, in picoseconds.
     resets: Vec<(u64, Reset)>,
     hung: Option<Stuck>,
-    ram: Arc<RamStore>,
+    /// The supply has failed.
+    off: bool,
+    ram: Arc<Store>,
 }
 
 impl Chip {
     /// Just switched on; what its RAM holds then is a matter of chance.
     pub(crate) fn new(image: &Image, seed: u64) -> Result<Self, ChipError> {
-        let mut program = image.flash.clone();
-        program.resize((FLASH.end - FLASH.start) as usize, 0xff);
-        let flash = Arc::new(RamStore::new(program.len() as u64));
-        flash.write_at(0, &program).map_err(map_error)?;
+        let flash = Arc::new(Store::new(FLASH.len()));
+        flash.fill(0, FLASH.end - FLASH.start, u32::MAX);
+        for (at, byte) in (0..).zip(&image.flash) {
+            flash.write(at, 1, (*byte).into());
+        }
         let shared = Arc::new(Shared::new(Peripherals::new(Flash::new(Arc::clone(&flash)))));
         let space = AddressSpace::new("stm32f446", 32);
-        let ram = Arc::new(RamStore::new((RAM.end - RAM.start).into()));
+        let ram = Arc::new(Store::new(RAM.len()));
         let quick = Quick::new(Arc::clone(&flash), Arc::clone(&ram));
-        let mut chance = Chance::new(seed);
-        for at in (0..ram.len()).step_by(8) {
-            ram.write_at(at, &chance.bits().to_le_bytes()).map_err(map_error)?;
-        }
+        fill_by_chance(&ram, seed);
         let mut system = vec![0xff; SYSTEM.len()];
         let number = (UNIQUE_ID - SYSTEM.start) as usize;
         if let Some(place) = system.get_mut(number..number + NUMBER.len()) {
@@ -116,7 +117,7 @@ impl Chip {
         let window = FlashWindow { array: flash, shared: Arc::clone(&shared) };
         map(Region::io("flash", FLASH.len() as u64, Arc::new(window)), FLASH.start)?;
         map(Region::rom("system", Arc::new(RomStore::new(system)), RomWrite::Fault), SYSTEM.start)?;
-        map(Region::ram("ram", Arc::clone(&ram)), RAM.start)?;
+        map(Region::io("ram", RAM.len() as u64, Arc::<Store>::clone(&ram)), RAM.start)?;
         for (name, range) in [("peripherals", PERIPHERALS), ("debug", DEBUG)] {
             let window = Window { base: range.start, shared: Arc::clone(&shared) };
             map(Region::io(name, range.len() as u64, Arc::new(window)), range.start)?;
@@ -135,6 +136,7 @@ impl Chip {
             handlers: Vec::new(),
             resets: vec![(0, Reset::Power)],
             hung: None,
+            off: false,
             ram,
         })
     }
@@ -203,10 +205,8 @@ impl Chip {
     /// Words of RAM, as they are between two instructions.
     pub(crate) fn words<const N: usize>(&self, address: u32) -> Option<[u32; N]> {
         let mut words = [0; N];
-        for (at, word) in (u64::from(address.checked_sub(RAM.start)?)..).step_by(4).zip(&mut words) {
-            let mut bytes = [0; 4];
-            self.ram.read_at(at, &mut bytes).ok()?;
-            *word = u32::from_le_bytes(bytes);
+        for (at, word) in (address.checked_sub(RAM.start)?..).step_by(4).zip(&mut words) {
+            *word = self.ram.read(at, 4)?;
         }
         Some(words)
     }
@@ -215,10 +215,40 @@ impl Chip {
     pub(crate) fn reset(&mut self, reset: Reset) {
         let now = self.shared.now();
         self.shared.peripherals().reset(reset, now);
+        self.quick.hand_over(&self.core);
         self.core.reset(ResetKind::Cold);
         self.hung = None;
         self.handlers.clear();
         self.resets.push((self.ps(), reset));
+        self.shared.look();
+    }
+
+    /// Off, and on again.
+    pub(crate) fn power_cycle(&mut self, seed: u64) {
+        fill_by_chance(&self.ram, seed);
+        self.off = false;
+        self.reset(Reset::Power);
+    }
+
+    /// The supply fails in the `count`-th thing that the flash is told to do.
+    pub(crate) fn cut_power_in_flash(&mut self, count: u32) {
+        self.shared.peripherals().flash.fail_in(count);
+    }
+
+    pub(crate) fn is_off(&self) -> bool {
+        self.off
+    }
+
+    /// Bytes of the flash; none outside of it.
+    pub(crate) fn flash(&self, address: u32, count: u32) -> Vec<u8> {
+        let array = &self.shared.peripherals().flash.array;
+        let from = address.wrapping_sub(FLASH.start);
+        (from..from.saturating_add(count)).map_while(|at| Some(array.read(at, 1)?.to_le_bytes()[0])).collect()
+    }
+
+    /// Turns bits of a byte of the flash over.
+    pub(crate) fn spoil_flash(&mut self, address: u32, bits: u8) {
+        self.shared.peripherals().flash.spoil(address, bits);
         self.shared.look();
     }
 
@@ -242,6 +272,12 @@ impl Chip {
             self.reset(Reset::Watchdog);
         }
         self.shared.take_look();
+        if self.shared.peripherals().flash.has_failed() && !self.off {
+            // Everything loses its power: pins, peripherals, the watchdog; the core stands still.
+            self.reset(Reset::Power);
+            self.off = true;
+            self.hung = Some(Stuck::Everything);
+        }
         let mut peripherals = self.shared.peripherals();
         if peripherals.flash.take_changed() {
             self.quick.forget();
@@ -279,7 +315,8 @@ impl Chip {
                 && let Some(masked) = ordinary
             {
                 let mut regs = self.core.regs();
-                let end = self.quick.run(&mut regs, &self.shared, horizon, masked, &mut self.instructions);
+                let start = Start { horizon, masked, may_float: self.may_float(&regs) };
+                let end = self.quick.run(&mut regs, &self.core, &self.shared, &start, &mut self.instructions);
                 self.core.set_regs(regs);
                 if end != End::Core {
                     if self.shared.take_look() {
@@ -289,8 +326,8 @@ impl Chip {
                 }
             }
             let before = self.core.current_exception();
+            self.quick.hand_over(&self.core);
             let cycles = self.step_core();
-            self.quick.core_stepped();
             self.instructions += 1;
             self.shared.set_now(self.shared.now() + cycles);
             self.note_entry(before);
@@ -333,6 +370,12 @@ impl Chip {
             && !self.core.is_locked_up()
             && !self.core.reset_pending();
         ordinary.then_some(waits.is_some() && regs.primask)
+    }
+
+    /// The running context uses the floating-point unit already, and no earlier one has registers that are yet to be stacked.
+    fn may_float(&self, regs: &Regs) -> bool {
+        let context = regs.control & control::FPCA != 0;
+        context && self.core.with_sys(|system| system.fpccr & fpccr::LSPACT == 0 && system.fp_enabled(true))
     }
 
     /// Steps the core. It forgets the state of an IT block when an interrupt comes in the middle of one, and would execute
@@ -380,6 +423,16 @@ impl Chip {
 fn is_of_hardware(handler: Exception) -> bool {
     let number = handler.0.checked_sub(FIRST_INTERRUPT);
     number.is_some_and(|number| Peripherals::INTERRUPTS.contains(&number))
+}
+
+/// What memory holds when it gets its power.
+fn fill_by_chance(memory: &Store, seed: u64) {
+    let mut chance = Chance::new(seed);
+    for at in (0..RAM.end - RAM.start).step_by(8) {
+        let [a, b, c, d, e, f, g, h] = chance.bits().to_le_bytes();
+        memory.write(at, 4, u32::from_le_bytes([a, b, c, d]));
+        memory.write(at + 4, 4, u32::from_le_bytes([e, f, g, h]));
+    }
 }
 
 fn map_error(error: impl std::fmt::Display) -> ChipError {

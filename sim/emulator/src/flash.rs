@@ -2,8 +2,7 @@
 //! time that it takes is a stall.
 
 use crate::chip::FLASH;
-use rsemu::core::space::RamStore;
-use rsemu::core::value::{Endian, Width};
+use crate::store::Store;
 use std::sync::Arc;
 
 const KEYR: u32 = 0x04;
@@ -24,13 +23,15 @@ const SEQUENCE_ERROR: u32 = 1 << 7;
 /// table 47).
 const SECTORS: [(u32, u64); 8] =
     [(16, 500), (16, 500), (16, 500), (16, 500), (64, 1100), (128, 2000), (128, 2000), (128, 2000)];
+/// Bits that aren't programmed yet when the supply fails in the middle.
+const HALF_DONE: u32 = 0x5555_5555;
 /// The longest that programming takes.
 const PROGRAM_US: u64 = 100;
 
 /// The array, which outlives resets, and its controller, which doesn't.
 #[derive(Debug)]
 pub(crate) struct Flash {
-    pub(crate) array: Arc<RamStore>,
+    pub(crate) array: Arc<Store>,
     registers: [u32; (END / 4) as usize],
     /// Keys given so far.
     keys: usize,
@@ -38,12 +39,22 @@ pub(crate) struct Flash {
     stall_us: u64,
     /// Something in the array is not as it was.
     changed: bool,
+    /// The supply fails after so many more things that are done to the array.
+    failing: Option<u32>,
+    failed: bool,
 }
 
 impl Flash {
-    pub(crate) fn new(array: Arc<RamStore>) -> Self {
-        let mut flash =
-            Self { array, registers: [0; (END / 4) as usize], keys: 0, stall_us: 0, changed: false };
+    pub(crate) fn new(array: Arc<Store>) -> Self {
+        let mut flash = Self {
+            array,
+            registers: [0; (END / 4) as usize],
+            keys: 0,
+            stall_us: 0,
+            changed: false,
+            failing: None,
+            failed: false,
+        };
         flash.reset();
         flash
     }
@@ -52,6 +63,33 @@ impl Flash {
         self.registers = [0; (END / 4) as usize];
         self.registers[(CR / 4) as usize] = LOCK;
         (self.keys, self.stall_us) = (0, 0);
+        (self.failing, self.failed) = (None, false);
+    }
+
+    /// The supply fails in the `count`-th thing from now on that is done to the array.
+    pub(crate) fn fail_in(&mut self, count: u32) {
+        self.failing = Some(count);
+    }
+
+    /// The supply has failed.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.failed
+    }
+
+    /// Turns bits of a byte over.
+    pub(crate) fn spoil(&mut self, address: u32, bits: u8) {
+        let at = address.wrapping_sub(FLASH.start);
+        if let Some(before) = self.array.read(at, 1) {
+            self.changed |= self.array.write(at, 1, before ^ u32::from(bits)).is_some();
+        }
+    }
+
+    /// The supply fails in this one.
+    fn fails_now(&mut self) -> bool {
+        let left = self.failing.map(|left| left.saturating_sub(1));
+        self.failed = left == Some(0);
+        self.failing = left.filter(|left| *left > 0);
+        self.failed
     }
 
     pub(crate) fn read(&self, offset: u32) -> u32 {
@@ -90,20 +128,15 @@ impl Flash {
             self.registers[(SR / 4) as usize] |= SEQUENCE_ERROR;
             return;
         }
-        let width = match bytes {
-            1 => Width::U8,
-            2 => Width::U16,
-            _ => Width::U32,
-        };
         if 1 << (control >> 8 & 3) != bytes {
             self.registers[(SR / 4) as usize] |= WIDTH_ERROR;
             return;
         }
-        let at = u64::from(address - FLASH.start);
-        if let Ok(before) = self.array.read_value(at, width, Endian::Little) {
-            // The same place was just read.
-            let written = self.array.write_value(at, width, before & u64::from(value), Endian::Little);
-            self.changed |= written.is_ok();
+        let at = address - FLASH.start;
+        // Half of the bits are done when the supply fails.
+        let value = if self.fails_now() { value | HALF_DONE } else { value };
+        if let Some(before) = self.array.read(at, bytes) {
+            self.changed |= self.array.write(at, bytes, before & value).is_some();
         }
         self.stall_us += PROGRAM_US;
     }
@@ -125,7 +158,9 @@ impl Flash {
             return;
         };
         let at: u32 = SECTORS.iter().take(sector).map(|(size, _)| size * 1024).sum();
-        self.changed |= self.array.fill(at.into(), u64::from(size * 1024), 0xff).is_ok();
+        let erased = if self.fails_now() { size / 2 } else { *size };
+        self.array.fill(at, erased * 1024, u32::MAX);
+        self.changed = true;
         self.stall_us += time * 1000;
     }
 
@@ -140,13 +175,13 @@ mod tests {
 
     const WORDS: u32 = 2 << 8;
 
-    fn word(flash: &Flash, at: u64) -> u64 {
-        flash.array.read_value(at, Width::U32, Endian::Little).unwrap()
+    fn word(flash: &Flash, at: u32) -> u32 {
+        flash.array.read(at, 4).unwrap()
     }
 
     #[test]
     fn a_locked_flash_keeps_what_it_holds_and_an_unlocked_one_only_loses_ones() {
-        let mut flash = Flash::new(Arc::new(RamStore::new(512 * 1024)));
+        let mut flash = Flash::new(Arc::new(Store::new(512 * 1024)));
         let place = FLASH.start + 0x4000;
         flash.write(CR, PROGRAM | WORDS);
         flash.program(place, 4, 5);

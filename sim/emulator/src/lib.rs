@@ -25,6 +25,7 @@ mod plain;
 mod probe;
 mod quick;
 mod rcc;
+mod store;
 mod time;
 mod timers;
 mod usart;

@@ -4,6 +4,8 @@
 
 mod edges;
 mod host;
+#[path = "../host/mod.rs"]
+mod link_host;
 mod pulses;
 mod readings;
 mod rules;

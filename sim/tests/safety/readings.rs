@@ -77,6 +77,7 @@ fn more_heaters_than_fit_a_frame_are_told_in_several() {
     let config = Config { heaters: vec![SmaConfig::opening(90.0); 40], seed: 7, ..Config::default() };
     let channels = Channels { heaters: 40, servos: 0, springs: 0 };
     let mut host = Host::of(Board::new(&config, channels, 1).unwrap());
+    host.connect(77);
     host.pass(Millis(50));
     let most = u16::try_from(READINGS_PER_REPLY).unwrap();
     assert_eq!(readings(&mut host, 0).channels.len(), usize::from(most));

@@ -3,17 +3,19 @@
 
 use super::alu::{shifted, shifted_by, sum};
 use crate::bus::Shared;
-use rsemu::core::space::RamStore;
+use crate::store::Store;
+use rsemu::cpu::arm::v7m::ArmV7m;
+use rsemu::cpu::arm::v7m::fp::Fpu;
 use rsemu::cpu::arm::v7m::isa::{
     BitfieldOp, Cond, DpOp, ExtendOp, HintOp, Insn, MemOffset, MiscOp, Operand, Size,
 };
 
-const N: u32 = 1 << 31;
-const Z: u32 = 1 << 30;
-const C: u32 = 1 << 29;
-const V: u32 = 1 << 28;
+pub(super) const N: u32 = 1 << 31;
+pub(super) const Z: u32 = 1 << 30;
+pub(super) const C: u32 = 1 << 29;
+pub(super) const V: u32 = 1 << 28;
 /// Where the state of an IT block stands.
-const IT: u32 = 0x3f << 10 | 3 << 25;
+pub(super) const IT: u32 = 0x3f << 10 | 3 << 25;
 /// Special registers that are read in the course of things.
 const IPSR: u8 = 5;
 const PRIMASK: u8 = 16;
@@ -27,10 +29,18 @@ pub(super) struct Run<'a> {
     pub(super) primask: bool,
     pub(super) exception: u32,
     pub(super) exclusive: Option<u32>,
-    pub(super) flash: &'a RamStore,
-    pub(super) ram: &'a RamStore,
+    /// The registers of the floating-point unit, if they have been asked for since the core stepped.
+    pub(super) fpu: &'a mut Option<Fpu>,
+    pub(super) may_float: bool,
+    pub(super) core: &'a ArmV7m,
+    pub(super) flash: &'a Store,
+    pub(super) ram: &'a Store,
     pub(super) shared: &'a Shared,
     pub(super) now: u64,
+    /// Nothing happens by itself before.
+    pub(super) horizon: u64,
+    /// Instructions of loops that were executed at once.
+    pub(super) skipped: u64,
     /// Where the program goes on.
     pub(super) next: u32,
     /// What the instruction takes.
@@ -59,7 +69,6 @@ impl Run<'_> {
             }
             self.set_it_state(if state.trailing_zeros() >= 3 { 0 } else { state & 0xe0 | state << 1 & 0x1f });
         }
-        self.r[15] = self.next;
         self.now += self.cycles;
         Some(())
     }
@@ -258,6 +267,7 @@ impl Run<'_> {
             Insn::Mrs { rd, sysm: PRIMASK } => self.set(rd, self.primask.into()),
             Insn::Mrs { rd, sysm: IPSR } => self.set(rd, self.exception),
             Insn::Cps { enable, i: true, f: false } => self.primask = !enable,
+            Insn::Fp(instruction) => self.float(instruction)?,
             Insn::Barrier { .. } | Insn::Hint { op: HintOp::Nop | HintOp::Yield } => {}
             _ => return None,
         }
@@ -338,7 +348,7 @@ impl Run<'_> {
 
     /// `LDM`, `STM`, `PUSH`, `POP`.
     #[inline]
-    fn block(&mut self, load: bool, rn: u8, list: u16, wback: bool, before: bool) -> Option<()> {
+    pub(super) fn block(&mut self, load: bool, rn: u8, list: u16, wback: bool, before: bool) -> Option<()> {
         let bytes = 4 * list.count_ones();
         let base = self.get(rn);
         let start = if before { base.wrapping_sub(bytes) } else { base };
@@ -389,12 +399,12 @@ impl Run<'_> {
 
     /// A target that stays in the program; the end of an exception, and code of another state, are the core's.
     #[inline]
-    fn code(target: u32) -> Option<u32> {
+    pub(super) fn code(target: u32) -> Option<u32> {
         (target & 1 == 1 && target < EXCEPTION_RETURN).then_some(target & !1)
     }
 
     #[inline]
-    fn branch(&mut self, target: u32) {
+    pub(super) fn branch(&mut self, target: u32) {
         self.next = target;
         self.cycles += 2;
     }

@@ -3,7 +3,6 @@
 
 use super::exec::Run;
 use crate::chip::{FLASH, RAM};
-use rsemu::core::value::{Endian, Width};
 
 const PERIPHERALS: u32 = 0x4;
 
@@ -15,8 +14,7 @@ impl Run<'_> {
             Some(offset) => (self.ram, offset),
             None => (self.flash, inside(address, bytes, FLASH.start, FLASH.end)?),
         };
-        #[expect(clippy::cast_possible_truncation, reason = "four bytes at most")]
-        memory.read_value(offset.into(), width(bytes), Endian::Little).ok().map(|value| value as u32)
+        memory.read(offset, bytes)
     }
 
     /// Reads a value; one access.
@@ -41,7 +39,7 @@ impl Run<'_> {
     pub(super) fn store(&mut self, address: u32, bytes: u32, value: u32) -> Option<()> {
         self.cycles += 1;
         if let Some(offset) = inside(address, bytes, RAM.start, RAM.end) {
-            return self.ram.write_value(offset.into(), width(bytes), value.into(), Endian::Little).ok();
+            return self.ram.write(offset, bytes, value);
         }
         if address >> 28 != PERIPHERALS || !address.is_multiple_of(bytes) || bit_band(address) {
             return None;
@@ -75,12 +73,4 @@ fn bit_band(address: u32) -> bool {
 fn inside(address: u32, bytes: u32, start: u32, end: u32) -> Option<u32> {
     let offset = address.wrapping_sub(start);
     (offset <= end - start - bytes).then_some(offset)
-}
-
-fn width(bytes: u32) -> Width {
-    match bytes {
-        1 => Width::U8,
-        2 => Width::U16,
-        _ => Width::U32,
-    }
 }

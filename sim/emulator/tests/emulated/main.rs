@@ -4,5 +4,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod host;
+#[path = "../../../tests/host/mod.rs"]
+mod link_host;
+mod memory;
 mod rules;
 mod standstill;
