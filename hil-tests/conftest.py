@@ -16,7 +16,7 @@ from bench.flight import Flight
 from bench.host import Deploy
 from bench.measurement import Measurement
 from bench.program import Program
-from bench.record import FLIGHT, MEASURED, Record
+from bench.record import FLIGHT, MEASURED, Record, level_of
 from zygote_wire import commands, reports
 from zygote_wire.frames import Frame, Kind
 from zygote_wire.hello import HelloReply
@@ -44,6 +44,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--baud", type=int, help="speed of the port, instead of the bench file's")
     group.addoption("--rig", type=Path, help="rig file, instead of the bench file's")
     group.addoption("--elf", type=Path, help="the board's program, instead of the bench file's")
+    group.addoption("--deployments", type=int, default=20, help="how many a soak test runs [20]")
     group.addoption("--out", type=Path, metavar="DIR", help="write records there: junit.xml, record.json, failures/")
     group.addoption("--seed", type=int, help="seed of the random tests [another one each time]")
 
@@ -97,11 +98,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     wanted = config.getoption("--level") or [level for level in bench.levels if level is not Level.SOAK]
     chosen, left_out = [], []
     for item in items:
-        levels = [mark.name for mark in item.iter_markers() if mark.name in list(Level)]
-        # The nearest mark counts: a test's own before that of its file.
-        if not levels:
+        level = level_of(item)
+        if not level:
             raise pytest.UsageError(f"{item.nodeid}: expected a mark of {', '.join(Level)}")
-        (chosen if levels[0] in wanted else left_out).append(item)
+        (chosen if level in wanted else left_out).append(item)
     if left_out:
         config.hook.pytest_deselected(items=left_out)
         items[:] = chosen
@@ -137,7 +137,7 @@ def zygote() -> Path:
 def program(zygote: Path, bench: Bench, tmp_path_factory: pytest.TempPathFactory) -> Program:
     """The 14 panels of three voxels, planned and scheduled for the rig."""
     model = REPOSITORY / "models/i14.txt"
-    return programs.make(zygote, model, bench.rig, tmp_path_factory.mktemp("program"))
+    return programs.make(zygote, model, bench.rig, tmp_path_factory.mktemp("program"), bench=bench.limits)
 
 
 @pytest.fixture(scope="session")

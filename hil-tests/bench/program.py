@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+from bench import bench_file
 from zygote_wire.commands import Heat, Release, Step, Turn
 from zygote_wire.hello import HelloReply, Limits
 
@@ -17,6 +18,7 @@ class Program:
     plan: Path
     rig_file: Path
     schedule: dict[str, Any]
+    bench: bench_file.Limits = bench_file.Limits()
 
     @property
     def rig(self) -> str:
@@ -29,17 +31,30 @@ class Program:
         return tuple(map(_wire_step, self.schedule["steps"]))
 
     def limits(self, mcu: HelloReply, link_timeout: int = 1_000) -> Limits:
-        """The board's ceiling with the schedule's supply, and this link timeout in milliseconds."""
-        supply = self.schedule["supply_limit_ma"]
-        return dataclasses.replace(mcu.ceiling, supply=supply, link_timeout=link_timeout)
+        """The board's ceiling and the bench's with the schedule's supply, and this link timeout in milliseconds."""
+        own, ceiling = self.bench, mcu.ceiling
+        return dataclasses.replace(
+            ceiling,
+            max_temperature=min(ceiling.max_temperature, round((own.max_temperature or 1e9) * 100)),
+            max_on=min(ceiling.max_on, round((own.max_on or 1e9) * 1000)),
+            supply=min(self.schedule["supply_limit_ma"], own.supply or 1 << 30),
+            link_timeout=link_timeout,
+        )
 
 
-def make(zygote: Path, model: Path, rig: Path, folder: Path, piles: int = 2) -> Program:
+def make(
+    zygote: Path,
+    model: Path,
+    rig: Path,
+    folder: Path,
+    piles: int = 2,
+    bench: bench_file.Limits = bench_file.Limits(),
+) -> Program:
     """Plans a model in so many piles and schedules it for a rig."""
     plan = folder / "plan.fold"
     _run(zygote, "plan", model, "--piles", piles, "--free", "ideal", "--output", plan)
     _run(zygote, "schedule", plan, "--rig", rig, "--parallel", 4)
-    return Program(plan, rig, json.loads(plan.read_text())["zygote:schedule"])
+    return Program(plan, rig, json.loads(plan.read_text())["zygote:schedule"], bench)
 
 
 def _run(zygote: Path, *arguments: Any) -> None:

@@ -16,6 +16,9 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
 
     let target = tools::root().join("target");
     tools::run(tools::cargo().args(["build", "--package", "zygote-cli", "--target-dir"]).arg(&target))?;
+    // What the suite's own reading of the protocol is held against.
+    let mirror = ["build", "--package", "zygote-protocol", "--example", "mirror", "--target-dir"];
+    tools::run(tools::cargo().args(mirror).arg(&target))?;
     let python = python::with_requirements(&target.join("venv"), &requirements)?;
     let zygote = target.join("debug/zygote").with_extension(env::consts::EXE_EXTENSION);
     let mut pytest = tools::command(&python);
