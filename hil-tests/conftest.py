@@ -78,6 +78,8 @@ def _bench(config: pytest.Config) -> Bench:
     bench = dataclasses.replace(bench, board=board, rig=rig, elf=elf)
     if bench.target is Target.EMULATOR and not (elf and elf.is_file()):
         raise BenchError(f"--target emulator: {elf or 'no --elf'}: no such program; `cargo xtask firmware` builds it")
+    if bench.target is Target.PORT:
+        targets.find_port(bench)
     if not rig.is_file():
         raise BenchError(f"{rig}: no such rig file")
     for level in config.getoption("--level") or ():
@@ -129,7 +131,7 @@ def zygote() -> Path:
     """The program: `$ZYGOTE`, else the debug build of this repository."""
     path = Path(os.environ.get("ZYGOTE") or REPOSITORY / "target/debug/zygote")
     if not path.is_file():
-        pytest.exit(f"{path}: no such program; run `cargo build -p zygote-cli`, or set ZYGOTE", returncode=2)
+        pytest.exit(f"{path}: no such program; run `cargo build -p zygote-cli`, or set ZYGOTE", returncode=4)
     return path
 
 
@@ -137,7 +139,10 @@ def zygote() -> Path:
 def program(zygote: Path, bench: Bench, tmp_path_factory: pytest.TempPathFactory) -> Program:
     """The 14 panels of three voxels, planned and scheduled for the rig."""
     model = REPOSITORY / "models/i14.txt"
-    return programs.make(zygote, model, bench.rig, tmp_path_factory.mktemp("program"), bench=bench.limits)
+    program = programs.make(zygote, model, bench.rig, tmp_path_factory.mktemp("program"), bench=bench.limits)
+    if too_much := program.beyond_the_bench():
+        pytest.exit(f"bench {bench.name}, rig {bench.rig.name}: {too_much}", returncode=4)
+    return program
 
 
 @pytest.fixture(scope="session")
@@ -148,7 +153,7 @@ def board(bench: Bench) -> Iterator[str]:
         with targets.alone(device):
             yield device
     except BenchError as error:
-        pytest.exit(str(error), returncode=2)
+        pytest.exit(str(error), returncode=4)
 
 
 @pytest.fixture

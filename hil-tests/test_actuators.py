@@ -51,10 +51,10 @@ def test_every_actuator_alone_moves_a_little_and_is_off_after(link, program, mcu
         name = f"hinge {step.hinge}, {type(step.action).__name__.lower()} {step.action.channel}"
         started = next(event.at for event in events if event.kind == Entered(State.RUNNING))
         opened = next(event.at for event in events if event.kind == StepOpened(0))
-        measure(f"{name}: time", (opened - started) / 1e6, "s", 0, 20)
+        measure(f"{name}: time", (opened - started) / 1e6, "s", high=20)
         if isinstance(step.action, Heat):
             measure(f"{name}: peak", done.peak / 100, "°C", WARM / 100, MOST_WARM / 100)
         most = max((look.current for look in looks), default=0)
-        measure(f"{name}: current", most, "mA", 0, program.limits(mcu).supply)
+        measure(f"{name}: current", most, "mA", high=program.limits(mcu).supply)
         status = link.status()
         assert (status.heaters_on, status.main_switch) == (0, False)

@@ -59,7 +59,7 @@ def test_a_deployment_opens_every_hinge_in_tree_order_and_tells_the_peaks(link, 
 def test_a_stop_in_the_middle_turns_everything_off_and_latches(link, program, mcu, measure):
     run.start(link, program, mcu)
     run.wait_for_heat(link)
-    measure("stop confirmed after", link.stop(), "s", 0, 1.0 * link.port.patience)
+    measure("stop confirmed after", link.stop(), "s", high=1.0 * link.port.patience)
     assert_all_off(link, Faulted.STOPPED)
     states = link.progress()
     assert StepState.INTERRUPTED in states and StepState.MOVING not in states
@@ -112,7 +112,8 @@ def test_a_silent_host_loses_its_link_and_everything_goes_off(link, program, mcu
     again = Link(link.port, session ^ 1)
     again.hello()
     status = assert_all_off(again, Faulted.LINK_LOST)
-    measure("off after a silence of", status.fault.value, "ms", LINK_TIMEOUT, LINK_TIMEOUT + 50)
+    assert status.fault.value >= LINK_TIMEOUT
+    measure("off after a silence of", status.fault.value, "ms", high=LINK_TIMEOUT + 50)
     assert status.fault.limit == LINK_TIMEOUT
     assert StepState.INTERRUPTED in again.progress()
 

@@ -50,6 +50,6 @@ def test_a_supply_that_is_cut_while_a_hinge_is_heated_ends_the_run(failing, prog
     fault = link.notice(Fault, patience=30.0)
     assert fault.code in (Faulted.NO_GAIN, Faulted.SENSOR_FROZEN)
     window = max(step.action.gain_window for step in program.steps if isinstance(step.action, Heat)) / 1000
-    measure("fault after", (fault.at - asked) / 1e6, "s", 0, 2 * window + 5)
+    measure("fault after", (fault.at - asked) / 1e6, "s", high=2 * window + 5)
     status = link.status()
     assert (status.state, status.heaters_on, status.main_switch) == (State.SAFE, 0, False)

@@ -30,6 +30,19 @@ class Program:
         """The steps for the MCU."""
         return tuple(map(_wire_step, self.schedule["steps"]))
 
+    def beyond_the_bench(self) -> str | None:
+        """What of the program is more than the bench takes."""
+        for number, step in enumerate(self.steps):
+            action, most = step.action, self.bench
+            if most.supply and action.current > most.supply:
+                return f"step {number} takes {action.current} mA, the bench {most.supply} mA at most"
+            if isinstance(action, Heat):
+                if most.max_temperature and action.max_temperature > most.max_temperature * 100:
+                    return f"step {number} may reach {action.max_temperature / 100} °C, the bench takes {most.max_temperature} °C"
+                if most.max_on and action.max_on > most.max_on * 1000:
+                    return f"step {number} may heat for {action.max_on / 1000} s, the bench takes {most.max_on} s"
+        return None
+
     def limits(self, mcu: HelloReply, link_timeout: int = 1_000) -> Limits:
         """The board's ceiling and the bench's with the schedule's supply, and this link timeout in milliseconds."""
         own, ceiling = self.bench, mcu.ceiling
