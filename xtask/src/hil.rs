@@ -3,7 +3,6 @@
 
 use crate::{firmware, python, tools};
 use anyhow::{Result, ensure};
-use std::env;
 
 /// The board whose program the emulator runs.
 const BOARD: &str = "nucleo-f446re";
@@ -14,13 +13,11 @@ pub(crate) fn run(options: &[String]) -> Result<()> {
     let requirements = suite.join("requirements.txt");
     ensure!(requirements.is_file(), "{} is missing", requirements.display());
 
-    let target = tools::root().join("target");
-    tools::run(tools::cargo().args(["build", "--package", "zygote-cli", "--target-dir"]).arg(&target))?;
+    let zygote = tools::built("zygote")?;
+    let python = python::with_requirements(&tools::root().join("target/venv"), &requirements)?;
     // What the suite's own reading of the protocol is held against.
-    let mirror = ["build", "--package", "zygote-protocol", "--example", "mirror", "--target-dir"];
-    tools::run(tools::cargo().args(mirror).arg(&target))?;
-    let python = python::with_requirements(&target.join("venv"), &requirements)?;
-    let zygote = target.join("debug/zygote").with_extension(env::consts::EXE_EXTENSION);
+    let mirror = ["build", "--workspace", "--example", "mirror", "--target-dir"];
+    tools::run(tools::cargo().args(mirror).arg(tools::root().join("target")))?;
     let mut pytest = tools::command(&python);
     tools::run(pytest.args(["-m", "pytest"]).arg(&suite).args(options).env("ZYGOTE", zygote))
 }
