@@ -95,7 +95,7 @@ def pytest_report_header(config: pytest.Config) -> str:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Every test is of one level; those of other levels than asked for are left out."""
+    """Every test is of one level; those of other levels than asked for are left out, and what moves little comes first."""
     bench = config.stash[BENCH]
     wanted = config.getoption("--level") or [level for level in bench.levels if level is not Level.SOAK]
     chosen, left_out = [], []
@@ -106,7 +106,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         (chosen if level in wanted else left_out).append(item)
     if left_out:
         config.hook.pytest_deselected(items=left_out)
-        items[:] = chosen
+    items[:] = sorted(chosen, key=lambda item: list(Level).index(Level(level_of(item))))
 
 
 @pytest.fixture(scope="session")
