@@ -205,7 +205,9 @@ def device(request: pytest.FixtureRequest, zygote: Path, program: Program, bench
         # What the test before left: its program, its session, Safe or not.
         port.send(STOP)
         link = Link(port, fresh_session())
-        link.hello()
+        who = link.hello().identity
+        if other := targets.not_expected(bench, who):
+            pytest.exit(f"{board}: {other}", returncode=4)
         link.request(commands.Clear())
     yield board
 
