@@ -16,7 +16,7 @@ from bench.flight import Flight
 from bench.host import Deploy
 from bench.measurement import Measurement
 from bench.program import Program
-from bench.record import FLIGHT, MEASURED, Record
+from bench.record import FLIGHT, MEASURED, Record, level_of
 from zygote_wire import commands, reports
 from zygote_wire.frames import Frame, Kind
 from zygote_wire.hello import HelloReply
@@ -44,6 +44,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--baud", type=int, help="speed of the port, instead of the bench file's")
     group.addoption("--rig", type=Path, help="rig file, instead of the bench file's")
     group.addoption("--elf", type=Path, help="the board's program, instead of the bench file's")
+    group.addoption("--deployments", type=int, default=20, help="how many a soak test runs [20]")
     group.addoption("--out", type=Path, metavar="DIR", help="write records there: junit.xml, record.json, failures/")
     group.addoption("--seed", type=int, help="seed of the random tests [another one each time]")
 
@@ -77,6 +78,8 @@ def _bench(config: pytest.Config) -> Bench:
     bench = dataclasses.replace(bench, board=board, rig=rig, elf=elf)
     if bench.target is Target.EMULATOR and not (elf and elf.is_file()):
         raise BenchError(f"--target emulator: {elf or 'no --elf'}: no such program; `cargo xtask firmware` builds it")
+    if bench.target is Target.PORT:
+        targets.find_port(bench)
     if not rig.is_file():
         raise BenchError(f"{rig}: no such rig file")
     for level in config.getoption("--level") or ():
@@ -92,19 +95,18 @@ def pytest_report_header(config: pytest.Config) -> str:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Every test is of one level; those of other levels than asked for are left out."""
+    """Every test is of one level; those of other levels than asked for are left out, and what moves little comes first."""
     bench = config.stash[BENCH]
     wanted = config.getoption("--level") or [level for level in bench.levels if level is not Level.SOAK]
     chosen, left_out = [], []
     for item in items:
-        levels = [mark.name for mark in item.iter_markers() if mark.name in list(Level)]
-        # The nearest mark counts: a test's own before that of its file.
-        if not levels:
+        level = level_of(item)
+        if not level:
             raise pytest.UsageError(f"{item.nodeid}: expected a mark of {', '.join(Level)}")
-        (chosen if levels[0] in wanted else left_out).append(item)
+        (chosen if level in wanted else left_out).append(item)
     if left_out:
         config.hook.pytest_deselected(items=left_out)
-        items[:] = chosen
+    items[:] = sorted(chosen, key=lambda item: list(Level).index(Level(level_of(item))))
 
 
 @pytest.fixture(scope="session")
@@ -129,7 +131,7 @@ def zygote() -> Path:
     """The program: `$ZYGOTE`, else the debug build of this repository."""
     path = Path(os.environ.get("ZYGOTE") or REPOSITORY / "target/debug/zygote")
     if not path.is_file():
-        pytest.exit(f"{path}: no such program; run `cargo build -p zygote-cli`, or set ZYGOTE", returncode=2)
+        pytest.exit(f"{path}: no such program; run `cargo build -p zygote-cli`, or set ZYGOTE", returncode=4)
     return path
 
 
@@ -137,7 +139,10 @@ def zygote() -> Path:
 def program(zygote: Path, bench: Bench, tmp_path_factory: pytest.TempPathFactory) -> Program:
     """The 14 panels of three voxels, planned and scheduled for the rig."""
     model = REPOSITORY / "models/i14.txt"
-    return programs.make(zygote, model, bench.rig, tmp_path_factory.mktemp("program"))
+    program = programs.make(zygote, model, bench.rig, tmp_path_factory.mktemp("program"), bench=bench.limits)
+    if too_much := program.beyond_the_bench():
+        pytest.exit(f"bench {bench.name}, rig {bench.rig.name}: {too_much}", returncode=4)
+    return program
 
 
 @pytest.fixture(scope="session")
@@ -148,7 +153,7 @@ def board(bench: Bench) -> Iterator[str]:
         with targets.alone(device):
             yield device
     except BenchError as error:
-        pytest.exit(str(error), returncode=2)
+        pytest.exit(str(error), returncode=4)
 
 
 @pytest.fixture
@@ -200,7 +205,9 @@ def device(request: pytest.FixtureRequest, zygote: Path, program: Program, bench
         # What the test before left: its program, its session, Safe or not.
         port.send(STOP)
         link = Link(port, fresh_session())
-        link.hello()
+        who = link.hello().identity
+        if other := targets.not_expected(bench, who):
+            pytest.exit(f"{board}: {other}", returncode=4)
         link.request(commands.Clear())
     yield board
 

@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+from bench import bench_file
 from zygote_wire.commands import Heat, Release, Step, Turn
 from zygote_wire.hello import HelloReply, Limits
 
@@ -17,6 +18,7 @@ class Program:
     plan: Path
     rig_file: Path
     schedule: dict[str, Any]
+    bench: bench_file.Limits = bench_file.Limits()
 
     @property
     def rig(self) -> str:
@@ -28,18 +30,44 @@ class Program:
         """The steps for the MCU."""
         return tuple(map(_wire_step, self.schedule["steps"]))
 
+    def beyond_the_bench(self) -> str | None:
+        """What of the program is more than the bench takes."""
+        for number, step in enumerate(self.steps):
+            action, most = step.action, self.bench
+            if most.supply and action.current > most.supply:
+                return f"step {number} takes {action.current} mA, the bench {most.supply} mA at most"
+            if isinstance(action, Heat):
+                if most.max_temperature and action.max_temperature > most.max_temperature * 100:
+                    return f"step {number} may reach {action.max_temperature / 100} °C, the bench takes {most.max_temperature} °C"
+                if most.max_on and action.max_on > most.max_on * 1000:
+                    return f"step {number} may heat for {action.max_on / 1000} s, the bench takes {most.max_on} s"
+        return None
+
     def limits(self, mcu: HelloReply, link_timeout: int = 1_000) -> Limits:
-        """The board's ceiling with the schedule's supply, and this link timeout in milliseconds."""
-        supply = self.schedule["supply_limit_ma"]
-        return dataclasses.replace(mcu.ceiling, supply=supply, link_timeout=link_timeout)
+        """The board's ceiling and the bench's with the schedule's supply, and this link timeout in milliseconds."""
+        own, ceiling = self.bench, mcu.ceiling
+        return dataclasses.replace(
+            ceiling,
+            max_temperature=min(ceiling.max_temperature, round((own.max_temperature or 1e9) * 100)),
+            max_on=min(ceiling.max_on, round((own.max_on or 1e9) * 1000)),
+            supply=min(self.schedule["supply_limit_ma"], own.supply or 1 << 30),
+            link_timeout=link_timeout,
+        )
 
 
-def make(zygote: Path, model: Path, rig: Path, folder: Path, piles: int = 2) -> Program:
+def make(
+    zygote: Path,
+    model: Path,
+    rig: Path,
+    folder: Path,
+    piles: int = 2,
+    bench: bench_file.Limits = bench_file.Limits(),
+) -> Program:
     """Plans a model in so many piles and schedules it for a rig."""
     plan = folder / "plan.fold"
     _run(zygote, "plan", model, "--piles", piles, "--free", "ideal", "--output", plan)
     _run(zygote, "schedule", plan, "--rig", rig, "--parallel", 4)
-    return Program(plan, rig, json.loads(plan.read_text())["zygote:schedule"])
+    return Program(plan, rig, json.loads(plan.read_text())["zygote:schedule"], bench)
 
 
 def _run(zygote: Path, *arguments: Any) -> None:

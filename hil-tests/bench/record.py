@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from bench.bench_file import Bench
+from bench.bench_file import Bench, Level
 from bench.flight import Flight
 from bench.measurement import Measurement
 from zygote_wire.hello import SCHEMA, VERSION, HelloReply
@@ -59,6 +59,7 @@ class Record:
             item.nodeid,
             {
                 "name": item.nodeid,
+                "level": level_of(item),
                 "start_time_millis": round(report.start * 1000),
                 "outcome": "PASS",
                 "outcome_details": [],
@@ -98,6 +99,11 @@ class Record:
             "metadata": {"test_name": "zygote-hil", **told},
             "phases": phases,
         }
+
+
+def level_of(item: pytest.Item) -> str | None:
+    """The level of a test: its own mark before that of its file."""
+    return next((mark.name for mark in item.iter_markers() if mark.name in list(Level)), None)
 
 
 def _evidence(item: pytest.Item, flight: Flight | None, folder: Path) -> dict[str, str]:

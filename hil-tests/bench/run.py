@@ -43,6 +43,11 @@ def start(link: Link, program: Program, mcu: HelloReply, link_timeout: int = 1_0
     """Uploads, arms and starts the program."""
     load(link, program)
     arm(link, program, mcu, link_timeout)
+    begin(link)
+
+
+def begin(link: Link) -> None:
+    """Starts what is armed."""
     link.request(commands.Start(RUN))
 
 
@@ -77,8 +82,25 @@ def silence(port: Port, seconds: float, but: Callable[[], None] = lambda: None) 
 
 def watch(link: Link, patience: float) -> list[reports.Event]:
     """The events of a run up to its end."""
+    return watch_all(link, patience)[0]
+
+
+def watch_all(link: Link, patience: float) -> tuple[list[reports.Event], list[reports.Telemetry]]:
+    """The events of a run up to its end, and the looks at it in between; a fault is no end to wait for."""
     events: list[reports.Event] = []
+    looks: list[reports.Telemetry] = []
     end = time.monotonic() + patience * link.port.patience
     while not events or events[-1].kind != reports.Entered(reports.State.FINISHED):
-        events.append(link.notice(reports.Event, patience=(end - time.monotonic()) / link.port.patience))
-    return events
+        if link.notices:
+            match link.notices.popleft():
+                case reports.Event() as event:
+                    events.append(event)
+                case reports.Telemetry() as look:
+                    looks.append(look)
+                case fault:
+                    raise AssertionError(f"the run ended with {fault}")
+        elif time.monotonic() < end:
+            link.pump(end - time.monotonic())
+        else:
+            raise NoAnswer(f"{link.port.device}: the run doesn't end within {patience * link.port.patience} s")
+    return events, looks

@@ -14,6 +14,7 @@ from serial.tools import list_ports
 
 from bench.bench_file import Bench, BenchError, Target
 from zygote_wire.frames import Frame, Kind
+from zygote_wire.hello import Identity
 from zygote_wire.port import Port
 
 START = 20.0
@@ -72,6 +73,17 @@ def find_port(bench: Bench) -> str:
             return port.device
     there = ", ".join(f"{port.device} ({port.serial_number or 'no number'})" for port in found) or "none"
     raise BenchError(f"bench {bench.name}: no serial port with USB serial number {bench.board.serial}; there are: {there}")
+
+
+def not_expected(bench: Bench, who: Identity) -> str | None:
+    """What is wrong with the board that answers: a test must not move another one's hinges."""
+    for what, expected, got in (
+        ("board", bench.board.name, who.board),
+        ("unique id", bench.board.unique_id, who.unique_id.hex()),
+    ):
+        if expected and expected != got:
+            return f"{what}: bench {bench.name} expects {expected}, found {got}"
+    return None
 
 
 @contextlib.contextmanager

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, explain, export, flash, fold_back, link, net, picture, plan,
+    alternatives, assembly, check, deploy, explain, export, flash, fold_back, hil, link, net, picture, plan,
     reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
@@ -50,6 +50,8 @@ pub(crate) enum Verb {
     Flash(flash::Arguments),
     /// Show what a board keeps over power cycles, and lower its limits
     Settings(settings::Arguments),
+    /// Test a board, simulated, emulated or real, with the serial suite
+    Hil(hil::Arguments),
     /// Serve a simulated board on a pseudo-terminal
     Sim(sim::Arguments),
 }
@@ -70,6 +72,7 @@ impl Verb {
             Self::Explain(arguments) => explain::run(&arguments),
             Self::Flash(arguments) => flash::run(&arguments),
             Self::Settings(arguments) => settings::run(&arguments),
+            Self::Hil(arguments) => hil::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
