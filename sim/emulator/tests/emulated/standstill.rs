@@ -1,7 +1,8 @@
 //! Storing settings erases flash, which halts the processor for half a second: the board's clock must not notice.
 
-use crate::host::{Host, LIMITS, plant};
-use zygote_protocol::{Command, Micros, Millis, Reply, Settings};
+use crate::host::{Host, plant};
+use crate::link_host::LIMITS;
+use zygote_protocol::{Command, Limits, Micros, Millis, Reply, Settings};
 
 /// Records of 64 bytes that fill both sectors of 16 KiB, of which the second starts blank: after so many changes one was erased.
 const RECORDS: u32 = 512;
@@ -22,7 +23,7 @@ fn the_clock_is_right_after_flash_was_erased() {
     let (mut longest, mut last) = (0, Micros(0));
     for count in 0..RECORDS {
         let start = host.board.now();
-        let limits = zygote_protocol::Limits { link_timeout: Millis(1_000 + count % 2), ..LIMITS };
+        let limits = Limits { link_timeout: Millis(1_000 + count % 2), ..LIMITS };
         let settings = Settings { ceiling: limits, shortest_pulse_us: 500, longest_pulse_us: 2_500 };
         assert_eq!(host.ask(Command::Configure(settings)), Ok(Reply::Done));
         longest = longest.max(host.board.now().since(start));
