@@ -67,6 +67,7 @@ MESSAGES = [
     (commands.Request, request(commands.Configure(SETTINGS))),
     (commands.Request, request(commands.Steps(0, PULSED))),
     (commands.Request, request(commands.Readings(16))),
+    (commands.Request, request(commands.Memory())),
     (commands.Urgent, commands.Urgent.STOP),
     (reports.Report, response(reports.Done())),
     (reports.Report, response(STATUS)),
@@ -89,6 +90,7 @@ MESSAGES = [
             reports.Readings(300, 4_950, 620, 16, (reports.Reading(2_345, 250), reports.Reading(None, 0)))
         ),
     ),
+    (reports.Report, response(reports.MemoryReport(reports.MemoryState.OTHER_VERSION, 300))),
     (reports.Report, event(reports.Entered(reports.State.RUNNING))),
     (reports.Report, event(reports.StepStarted(1))),
     (reports.Report, event(reports.StepOpened(1))),

@@ -7,7 +7,7 @@ import pytest
 from zygote_wire import commands
 from zygote_wire.codes import Refused
 from zygote_wire.link import CommandRefused, Link
-from zygote_wire.reports import Done, Refusal, SettingsReport
+from zygote_wire.reports import Done, MemoryState, Refusal, SettingsReport
 
 
 pytestmark = pytest.mark.smoke
@@ -33,6 +33,7 @@ def test_a_lowered_limit_is_kept_and_told_by_every_later_hello(link, compiled):
     report = settings(link)
     assert (report.in_force, report.compiled) == (lowered, compiled)
     assert link.hello().ceiling == ceiling
+    assert link.request(commands.Memory()).state == MemoryState.KEPT
 
 
 def test_no_setting_is_raised_above_what_is_compiled_in(link, compiled):

@@ -166,6 +166,11 @@ class Readings:
     first: U16
 
 
+@dataclasses.dataclass(frozen=True)
+class Memory:
+    """What became of what you keep over power cycles?"""
+
+
 Command = (
     Status
     | Progress
@@ -180,6 +185,7 @@ Command = (
     | AskSettings
     | Configure
     | Readings
+    | Memory
 )
 
 

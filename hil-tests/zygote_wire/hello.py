@@ -7,7 +7,7 @@ from typing import Annotated
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
 VERSION = 4
-SCHEMA = 0x74341209
+SCHEMA = 0xEB313DD1
 
 
 class ResetCause(enum.IntEnum):

@@ -121,7 +121,24 @@ class Readings:
     channels: tuple[Reading, ...]
 
 
-Reply = Done | Status | Progress | LastRun | SettingsReport | Readings
+class MemoryState(enum.IntEnum):
+    """Whether settings are kept."""
+
+    KEPT = 0
+    BLANK = 1
+    OTHER_VERSION = 2
+    UNUSABLE = 3
+
+
+@dataclasses.dataclass(frozen=True)
+class MemoryReport:
+    """What became of what the board keeps over power cycles."""
+
+    state: MemoryState
+    damaged: U16
+
+
+Reply = Done | Status | Progress | LastRun | SettingsReport | Readings | MemoryReport
 
 
 @dataclasses.dataclass(frozen=True)

@@ -15,8 +15,12 @@
 //! | `Settings` | any | none |
 //! | `Configure` | any but Armed, Running | settings are written down for good, then in force |
 //! | `Readings` | any | none |
+//! | `Memory` | any | none |
 
-use crate::{Fault, Limits, Micros, Millis, Readings, RefusalCode, Settings, SettingsReport, Snapshot, Step};
+use crate::{
+    Fault, Limits, MemoryReport, Micros, Millis, Readings, RefusalCode, Settings, SettingsReport, Snapshot,
+    Step,
+};
 use heapless::{String, Vec};
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
@@ -102,6 +106,8 @@ pub enum Command {
         /// First channel of interest.
         first: u16,
     },
+    /// What became of what you keep over power cycles? Answered by [`Reply::Memory`].
+    Memory,
 }
 
 /// The answer to a [`Request`].
@@ -133,6 +139,8 @@ pub enum Reply {
     Settings(SettingsReport),
     /// To [`Command::Readings`].
     Readings(Readings),
+    /// To [`Command::Memory`].
+    Memory(MemoryReport),
 }
 
 /// Why a command was refused; it then changed nothing.

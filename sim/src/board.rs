@@ -10,8 +10,8 @@ use crate::plant::{Config as PlantConfig, Drive, Plant, PlantError};
 use core::time::Duration;
 use zygote_core::{Config, Core, Inputs, NTC_10K};
 use zygote_protocol::{
-    CentiCelsius, Channels, Identity, Limits, MAX_ENCODED, Micros, Milliamps, Millis, ResetCause, Retained,
-    Settings,
+    CentiCelsius, Channels, Identity, Limits, MAX_ENCODED, MemoryReport, MemoryState, Micros, Milliamps,
+    Millis, ResetCause, Retained, Settings,
 };
 
 /// Time between two control ticks: as slow as the core allows, to be fast.
@@ -123,6 +123,7 @@ impl Board {
         *self.core = Core::new(config(self.channels, self.boot, cause), self.now, before);
         if let Some(settings) = &self.kept {
             self.core.restore(settings);
+            self.core.remember(MemoryReport { state: MemoryState::Kept, damaged: 0 });
         }
         self.retained = (0, Retained::NOTHING);
         self.next_tick = self.now.plus(TICK);

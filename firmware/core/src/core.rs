@@ -24,8 +24,8 @@ use crate::thermal_guard::ThermalGuard;
 use crate::trip::Trip;
 use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Heat, Hello, HelloReply,
-    Limits, Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Pulse,
-    Received, RefusalCode, Report, Request, Response, Settings, Snapshot, State, StepState, Telemetry,
+    Limits, Link, LinkCounters, MAX_PAYLOAD, MemoryReport, Micros, Milliamps, Millis, Millivolts, NO_SESSION,
+    Pulse, Received, RefusalCode, Report, Request, Response, Settings, Snapshot, State, StepState, Telemetry,
     Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id, peek_versions,
     schema,
 };
@@ -100,6 +100,12 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     /// Settings that the board kept, in force as far as it allows them (S13). To be told once, after the start.
     pub fn restore(&mut self, stored: &Settings) {
         self.keeper.restore(&mut self.config, stored);
+    }
+
+    /// What the board found in the memory that outlives power, for hosts that ask. To be told once, after the start; nothing was
+    /// ever kept otherwise.
+    pub fn remember(&mut self, memory: MemoryReport) {
+        self.keeper.remember(memory);
     }
 
     /// Settings that the board is to write down now, and then to say so to [`Self::stored`]; nothing is energised.

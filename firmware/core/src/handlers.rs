@@ -35,6 +35,7 @@ pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS
         Command::Clear => clear(core, now),
         Command::LastRun => Ok(Reply::LastRun(core.before.clone())),
         Command::Settings => Ok(core.keeper.report(now, &core.config)),
+        Command::Memory => Ok(Reply::Memory(core.keeper.memory())),
         Command::Readings { first } => Ok(Reply::Readings(readings(core, first))),
         Command::Configure(settings) => return configure(core, id, settings).err().map(Err),
     })

@@ -3,13 +3,15 @@
 use crate::config::Config;
 use crate::program::refuse;
 use zygote_protocol::{
-    LimitName, Micros, Refusal, RefusalCode, Reply, Response, Settings, SettingsReport, TooLax,
+    LimitName, MemoryReport, MemoryState, Micros, Refusal, RefusalCode, Reply, Response, Settings,
+    SettingsReport, TooLax,
 };
 
 /// What is compiled into the board, and settings on their way into its memory.
 #[derive(Debug)]
 pub(crate) struct Keeper {
     compiled: Settings,
+    memory: MemoryReport,
     storing: Option<Storing>,
     /// An answer that waits for room on the line.
     late: Option<Response>,
@@ -24,12 +26,21 @@ struct Storing {
 
 impl Keeper {
     pub(crate) fn new(config: &Config) -> Self {
-        Self { compiled: in_force(config), storing: None, late: None }
+        Self { compiled: in_force(config), memory: MemoryReport::BLANK, storing: None, late: None }
     }
 
     /// What was stored comes into force as far as the board allows it.
     pub(crate) fn restore(&self, config: &mut Config, stored: &Settings) {
         put_into_force(config, &stored.within(&self.compiled));
+    }
+
+    /// What the board found in its memory.
+    pub(crate) fn remember(&mut self, memory: MemoryReport) {
+        self.memory = memory;
+    }
+
+    pub(crate) fn memory(&self) -> MemoryReport {
+        self.memory
     }
 
     pub(crate) fn report(&self, at: Micros, config: &Config) -> Reply {
@@ -68,6 +79,7 @@ impl Keeper {
     /// The board has written them down, or couldn't; only what is surely kept comes into force.
     pub(crate) fn stored(&mut self, config: &mut Config, is_stored: bool) {
         let Some(Storing { settings, request }) = self.storing.take() else { return };
+        self.memory.state = if is_stored { MemoryState::Kept } else { MemoryState::Unusable };
         if is_stored {
             put_into_force(config, &settings);
         }

@@ -6,8 +6,8 @@ mod a_board;
 
 use a_bench::{Answer, Bench};
 use zygote_protocol::{
-    Action, CentiCelsius, Command, FaultCode, Limits, Milliamps, Millis, Refusal, RefusalCode, Reply,
-    Response, RigId, Settings, SettingsReport, State, Step, Turn, program_crc,
+    Action, CentiCelsius, Command, FaultCode, Limits, MemoryReport, MemoryState, Milliamps, Millis, Refusal,
+    RefusalCode, Reply, Response, RigId, Settings, SettingsReport, State, Step, Turn, program_crc,
 };
 
 /// Half of full scale: some 25 °C.
@@ -73,6 +73,23 @@ fn settings_are_in_force_and_answered_only_once_they_are_stored() {
     assert_eq!(bench.core.to_store(), None);
     assert_eq!(bench.carry(), [Response { id, result: Ok(Reply::Done) }]);
     assert_eq!((bench.report().in_force, bench.report().compiled), (lowered(), compiled()));
+}
+
+#[test]
+fn what_the_board_found_in_its_memory_is_told_and_follows_what_is_stored() {
+    let mut bench = Bench::new();
+    let told = |bench: &mut Bench| bench.ask(Command::Memory);
+    assert_eq!(told(&mut bench), Ok(Reply::Memory(MemoryReport::BLANK)));
+    let found = MemoryReport { state: MemoryState::OtherVersion, damaged: 3 };
+    bench.core.remember(found);
+    assert_eq!(told(&mut bench), Ok(Reply::Memory(found)));
+    for (is_stored, state) in [(true, MemoryState::Kept), (false, MemoryState::Unusable)] {
+        bench.send(Command::Configure(lowered()));
+        bench.carry();
+        bench.core.stored(is_stored);
+        bench.carry();
+        assert_eq!(told(&mut bench), Ok(Reply::Memory(MemoryReport { state, ..found })));
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@
 use crate::record::{RECORD, Record, VERSION};
 use core::fmt;
 use embedded_storage::nor_flash::NorFlash;
-use zygote_protocol::Settings;
+use zygote_protocol::{MemoryReport, MemoryState, Settings};
 
 /// Places that are tried before a flash is given up as worn.
 const TRIES: u32 = 4;
@@ -54,6 +54,8 @@ pub struct Memory<F> {
     sector: u32,
     /// The record that counts, and where it stands.
     latest: Option<(u32, Record)>,
+    /// Places that are neither blank nor a whole record.
+    damaged: u16,
 }
 
 impl<F: NorFlash> Memory<F> {
@@ -68,12 +70,15 @@ impl<F: NorFlash> Memory<F> {
         if !is_whole || !fits || !RECORD.is_multiple_of(F::WRITE_SIZE) {
             return Err(MemoryError::Room);
         }
-        let mut memory = Self { flash, begin, sector, latest: None };
+        let mut memory = Self { flash, begin, sector, latest: None, damaged: 0 };
         for at in (begin..begin + 2 * sector).step_by(RECORD) {
-            if let Some(record) = Record::from_bytes(&memory.read(at)?)
-                && memory.latest.is_none_or(|(_, latest)| record.number > latest.number)
-            {
-                memory.latest = Some((at, record));
+            let bytes = memory.read(at)?;
+            match Record::from_bytes(&bytes) {
+                Some(record) if memory.latest.is_none_or(|(_, latest)| record.number > latest.number) => {
+                    memory.latest = Some((at, record));
+                }
+                None if bytes != BLANK => memory.damaged = memory.damaged.saturating_add(1),
+                Some(_) | None => {}
             }
         }
         Ok(memory)
@@ -99,6 +104,16 @@ impl<F: NorFlash> Memory<F> {
     pub fn settings(&self) -> Result<Option<Settings>, MemoryError<F::Error>> {
         let Some((_, latest)) = self.latest else { return Ok(None) };
         latest.settings().map_err(|got| MemoryError::Version { got })
+    }
+
+    /// What was found, for a host that asks.
+    pub fn report(&self) -> MemoryReport {
+        let state = match self.settings() {
+            Ok(Some(_)) => MemoryState::Kept,
+            Ok(None) => MemoryState::Blank,
+            Err(_) => MemoryState::OtherVersion,
+        };
+        MemoryReport { state, damaged: self.damaged }
     }
 
     /// Keeps the settings from now on. May erase, and so take a second.

@@ -135,6 +135,7 @@ async fn begin(
     if let Some(settings) = keeping.settings() {
         core.restore(&settings);
     }
+    core.remember(keeping.report());
     let shell = SHELL.init(Shell::new(core, actuators, keeping));
     dead_man::watch();
     spawner.spawn(defmt::unwrap!(tasks::control(shell, sensors)));

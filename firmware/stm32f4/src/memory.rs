@@ -10,7 +10,7 @@ use embassy_stm32::{
     peripherals::FLASH,
 };
 use zygote_parts::Memory;
-use zygote_protocol::Settings;
+use zygote_protocol::{MemoryReport, MemoryState, Settings};
 
 /// Where sector 1 begins, counted from the start of the flash.
 const SECTORS: u32 = 0x4000;
@@ -35,6 +35,12 @@ impl Keeping {
     /// The settings that were kept.
     pub(crate) fn settings(&self) -> Option<Settings> {
         said(self.0.as_ref()?.settings()).flatten()
+    }
+
+    /// What was found, for a host that asks.
+    pub(crate) fn report(&self) -> MemoryReport {
+        let unusable = MemoryReport { state: MemoryState::Unusable, damaged: 0 };
+        self.0.as_ref().map_or(unusable, Memory::report)
     }
 
     /// Keeps settings; whether that is done. Nothing may be energised.

@@ -6,7 +6,7 @@ use crate::output::say;
 use clap::Args;
 use serde_json::{Value, json};
 use zygote_controller::{SerialTransport, Session};
-use zygote_protocol::{CentiCelsius, Milliamps, Millis, Settings, SettingsReport};
+use zygote_protocol::{CentiCelsius, MemoryReport, MemoryState, Milliamps, Millis, Settings, SettingsReport};
 
 /// How long an answer to the hello is waited for.
 const HELLO_PATIENCE: Millis = Millis(5_000);
@@ -59,13 +59,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         session.configure(wanted).or_failed()?;
     }
     let after = session.settings().or_failed()?;
+    let memory = session.memory().or_failed()?;
     if arguments.json {
         say(format_args!(
             "{:#}",
-            json!({ "in_force": value(&after.in_force), "compiled": value(&after.compiled) })
+            json!({
+                "in_force": value(&after.in_force),
+                "compiled": value(&after.compiled),
+                "memory": { "state": state(memory.state), "damaged_records": memory.damaged },
+            })
         ));
     } else {
         say(table(&after));
+        say(told(memory));
     }
     Ok(())
 }
@@ -115,4 +121,51 @@ fn table(report: &SettingsReport) -> String {
     let rows =
         rows.map(|((name, unit, ours), (_, _, most))| format!("{name:<16}{unit:<9}{ours:>9}{most:>10}"));
     std::iter::once(head).chain(rows).collect::<Vec<_>>().join("\n")
+}
+
+fn state(state: MemoryState) -> &'static str {
+    match state {
+        MemoryState::Kept => "kept",
+        MemoryState::Blank => "blank",
+        MemoryState::OtherVersion => "other version",
+        MemoryState::Unusable => "unusable",
+    }
+}
+
+/// What became of what was kept, and what to do about it.
+fn told(memory: MemoryReport) -> String {
+    let state = match memory.state {
+        MemoryState::Kept => "These settings are kept in flash.",
+        MemoryState::Blank => "Nothing is kept in flash: what is compiled in holds.",
+        MemoryState::OtherVersion => {
+            "What is kept in flash is of another firmware: what is compiled in holds. Set your limits again."
+        }
+        MemoryState::Unusable => {
+            "The flash can't be used: what is compiled in holds, and nothing can be kept. Replace the board."
+        }
+    };
+    let damaged = memory.damaged;
+    if damaged == 0 {
+        return state.to_owned();
+    }
+    format!(
+        "{state}\nwarning: the start passed over {damaged} damaged record(s) in flash: power failed while they were written, or the flash \
+         wears out. What they held is lost, and the record before them counts: check the limits above."
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_became_of_the_memory_is_told_with_what_to_do() {
+        let told = |state, damaged| told(MemoryReport { state, damaged });
+        assert_eq!(told(MemoryState::Kept, 0), "These settings are kept in flash.");
+        assert!(told(MemoryState::Blank, 0).contains("what is compiled in holds"));
+        assert!(told(MemoryState::OtherVersion, 0).contains("Set your limits again"));
+        assert!(told(MemoryState::Unusable, 0).contains("Replace the board"));
+        let spoiled = told(MemoryState::Kept, 2);
+        assert!(spoiled.contains("2 damaged record(s)") && spoiled.contains("check the limits"), "{spoiled}");
+    }
 }

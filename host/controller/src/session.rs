@@ -6,8 +6,8 @@ use crate::connect::{self, ConnectError, transmit};
 use crate::inbox::{Broken, Inbox, Notice};
 use std::io;
 use zygote_protocol::{
-    Command, HelloReply, Link, LinkCounters, Micros, Millis, Readings, Refusal, Reply, Request, SendError,
-    Settings, SettingsReport, Snapshot, Status, Urgent,
+    Command, HelloReply, Link, LinkCounters, MemoryReport, Micros, Millis, Readings, Refusal, Reply, Request,
+    SendError, Settings, SettingsReport, Snapshot, Status, Urgent,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
@@ -253,7 +253,8 @@ impl<T: Transport> Session<T> {
             | Reply::Progress { .. }
             | Reply::LastRun(_)
             | Reply::Settings(_)
-            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "status" }),
+            | Reply::Readings(_)
+            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "status" }),
         }
     }
 
@@ -268,7 +269,8 @@ impl<T: Transport> Session<T> {
             | Reply::Progress { .. }
             | Reply::Status(_)
             | Reply::Settings(_)
-            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "last run" }),
+            | Reply::Readings(_)
+            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "last run" }),
         }
     }
 
@@ -283,7 +285,8 @@ impl<T: Transport> Session<T> {
             | Reply::Progress { .. }
             | Reply::Status(_)
             | Reply::LastRun(_)
-            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "settings" }),
+            | Reply::Readings(_)
+            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "settings" }),
         }
     }
 
@@ -298,7 +301,24 @@ impl<T: Transport> Session<T> {
             | Reply::Progress { .. }
             | Reply::Status(_)
             | Reply::LastRun(_)
-            | Reply::Settings(_) => Err(RequestError::WrongReply { command: "readings" }),
+            | Reply::Settings(_)
+            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "readings" }),
+        }
+    }
+
+    /// Asks what became of what the board keeps over power cycles.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn memory(&mut self) -> Result<MemoryReport, RequestError> {
+        match self.request(Command::Memory)? {
+            Reply::Memory(report) => Ok(report),
+            Reply::Done
+            | Reply::Progress { .. }
+            | Reply::Status(_)
+            | Reply::LastRun(_)
+            | Reply::Settings(_)
+            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "memory" }),
         }
     }
 
@@ -419,6 +439,7 @@ fn name_of(command: &Command) -> &'static str {
         Command::Clear => "clear",
         Command::LastRun => "last run",
         Command::Settings => "settings",
+        Command::Memory => "memory",
         Command::Configure(_) => "configure",
         Command::Readings { .. } => "readings",
     }

@@ -10,7 +10,7 @@ mod flash;
 
 use flash::{Failure, Flash, SECTOR, SIZE};
 use zygote_parts::{Memory, MemoryError};
-use zygote_protocol::{CentiCelsius, Limits, Milliamps, Millis, Settings};
+use zygote_protocol::{CentiCelsius, Limits, MemoryReport, MemoryState, Milliamps, Millis, Settings};
 
 const FIRST: u32 = 0x1234_0000;
 
@@ -46,7 +46,9 @@ fn life(flash: Flash, settings: Option<&Settings>) -> (Flash, Option<u32>, bool)
 fn a_fresh_flash_has_no_settings_and_its_first_start_is_the_one_named() {
     let mut memory = open(Flash::new(1));
     assert_eq!(memory.settings(), Ok(None));
+    assert_eq!(memory.report(), MemoryReport::BLANK);
     assert_eq!(memory.count_start(FIRST), Ok(FIRST));
+    assert_eq!(memory.report(), MemoryReport::BLANK);
     assert_eq!(memory.count_start(77), Ok(FIRST + 1));
 }
 
@@ -158,7 +160,9 @@ fn settings_of_another_version_are_named_and_may_be_replaced() {
     assert_eq!(memory.settings(), Err(MemoryError::Version { got: 7 }));
     let message = MemoryError::<Failure>::Version { got: 7 }.to_string();
     assert_eq!(message, "the stored settings are of version 7, expected 1");
+    assert_eq!(memory.report(), MemoryReport { state: MemoryState::OtherVersion, damaged: 0 });
     assert_eq!(memory.keep(&settings(2)), Ok(()));
+    assert_eq!(memory.report(), MemoryReport { state: MemoryState::Kept, damaged: 0 });
     flash = memory.into_flash();
     assert_eq!(open(flash).settings(), Ok(Some(settings(2))));
 }
@@ -180,7 +184,9 @@ fn a_damaged_record_falls_back_to_the_one_before() {
     for bit in 0..64 * 8 {
         let mut damaged = flash.clone();
         damaged.bytes[2 * 64 + bit / 8] ^= 1 << (bit % 8);
-        assert_eq!(open(damaged).count_start(FIRST), Ok(FIRST + 2), "bit {bit}");
+        let mut memory = open(damaged);
+        assert_eq!(memory.report(), MemoryReport { state: MemoryState::Blank, damaged: 1 }, "bit {bit}");
+        assert_eq!(memory.count_start(FIRST), Ok(FIRST + 2), "bit {bit}");
     }
 }
 

@@ -2,7 +2,9 @@
 
 use crate::host::{Host, plant, program};
 use zygote_emulator::{ElfError, Image};
-use zygote_protocol::{CentiCelsius, Command, Millis, Refusal, Reply, ResetCause, Settings};
+use zygote_protocol::{
+    CentiCelsius, Command, MemoryReport, MemoryState, Millis, Refusal, Reply, ResetCause, Settings,
+};
 
 /// The two sectors of records, and the size of a record.
 const SECTORS: [u32; 2] = [0x0800_4000, 0x0800_8000];
@@ -12,6 +14,14 @@ const RECORD: u32 = 64;
 fn in_force(host: &mut Host) -> (Settings, Settings) {
     match host.ask(Command::Settings) {
         Ok(Reply::Settings(report)) => (report.in_force, report.compiled),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// What the board says of its memory.
+fn told(host: &mut Host) -> (MemoryState, u16) {
+    match host.ask(Command::Memory) {
+        Ok(Reply::Memory(MemoryReport { state, damaged })) => (state, damaged),
         other => panic!("{other:?}"),
     }
 }
@@ -54,9 +64,11 @@ fn s13_settings_outlive_power_and_a_spoiled_record_falls_back_to_the_one_before(
     let mut host = Host::connected(&plant());
     let boot = host.identity.as_ref().unwrap().boot;
     let (first, second) = (lowered(&mut host, 9_000), lowered(&mut host, 8_000));
+    assert_eq!(told(&mut host), (MemoryState::Blank, 0));
     assert_eq!(configure(&mut host, first), Ok(Reply::Done));
     power_cycle(&mut host, 2);
     assert_eq!(in_force(&mut host).0, first);
+    assert_eq!(told(&mut host), (MemoryState::Kept, 0));
     assert_eq!(host.identity.as_ref().unwrap().boot, boot.wrapping_add(1));
 
     assert_eq!(configure(&mut host, second), Ok(Reply::Done));
@@ -64,6 +76,7 @@ fn s13_settings_outlive_power_and_a_spoiled_record_falls_back_to_the_one_before(
     host.board.spoil_flash(spoiled, 0x10);
     power_cycle(&mut host, 3);
     assert_eq!(in_force(&mut host).0, first);
+    assert_eq!(told(&mut host), (MemoryState::Kept, 1));
     // The number of the start was in the record before as well.
     assert_eq!(host.identity.as_ref().unwrap().boot, boot.wrapping_add(2));
 }
@@ -76,13 +89,16 @@ fn s13_with_every_record_spoiled_the_compiled_ceilings_hold_and_settings_can_be_
     assert_eq!(configure(&mut host, settings), Ok(Reply::Done));
     let records: Vec<u32> = places().filter(|place| !is_blank(&host, *place)).collect();
     assert!(records.len() >= 2, "{records:x?}");
-    for record in records {
+    for record in &records {
         host.board.spoil_flash(record + 9, 1);
     }
     power_cycle(&mut host, 2);
     let (now, compiled) = in_force(&mut host);
     assert_eq!(now, compiled);
+    let damaged = u16::try_from(records.len()).unwrap();
+    assert_eq!(told(&mut host), (MemoryState::Blank, damaged));
     assert_eq!(configure(&mut host, settings), Ok(Reply::Done));
+    assert_eq!(told(&mut host), (MemoryState::Kept, damaged));
     power_cycle(&mut host, 3);
     assert_eq!(in_force(&mut host).0, settings);
 }

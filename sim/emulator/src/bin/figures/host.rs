@@ -222,5 +222,6 @@ fn name(commands: &[Command]) -> &'static str {
         Command::Settings => "Settings",
         Command::Configure(_) => "Configure",
         Command::Readings { .. } => "Readings",
+        Command::Memory => "Memory",
     }
 }
