@@ -16,6 +16,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-emulator", &["zygote-core", "zygote-protocol", "zygote-sim"]),
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
+    ("zygote-calibration", &["zygote-core", "zygote-sim"]),
     ("zygote-controller", &["zygote-protocol", "zygote-deployment"]),
     (
         "zygote-rehearsal",
