@@ -30,7 +30,7 @@ pub(crate) struct Moment {
 
 impl Course {
     const HEATING_STEP_S: f64 = 0.025;
-    const COOLING_STEP_S: f64 = 0.1;
+    const COOLING_STEP_S: f64 = 0.05;
     /// In a gap there is nothing to compare with.
     const GAP_S: f64 = 2.0;
     const GAP_STEP_S: f64 = 0.25;

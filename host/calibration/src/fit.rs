@@ -159,7 +159,7 @@ fn search(
             if cost < best.0 {
                 best = (cost, point);
             }
-            if tolerance > 1e-5 && problem.correlation(&best.1) < NOISE {
+            if problem.correlation(&best.1) < NOISE {
                 return best.1;
             }
         }
@@ -300,7 +300,7 @@ impl Judge<'_> {
         let half = self.solution.covariance.map_or(f64::INFINITY, |covariance| {
             let spread = bend * covariance;
             let variance = slope.dot(&(covariance * slope)) + (spread * spread).trace() / 2.0;
-            SIGMAS * variance.max(0.0).sqrt() + spread.trace().abs() / 2.0
+            (SIGMAS * variance.max(0.0).sqrt()).hypot(quantity.resolution()) + spread.trace().abs() / 2.0
         });
         let most = match quantity.widest() {
             Width::Share(share) => share * best.abs(),
