@@ -1,6 +1,6 @@
 //! A record as the model runs through it: spans of constant power that end at a sample or at an edge of a drive.
 
-use crate::model::{Model, State};
+use crate::model::{Model, State, Step};
 use crate::record::{Drive, Record};
 
 /// A span of constant power.
@@ -29,11 +29,13 @@ pub(crate) struct Moment {
 }
 
 impl Course {
-    const HEATING_STEP_S: f64 = 0.05;
-    const COOLING_STEP_S: f64 = 0.1;
+    const HEATING_STEP_S: f64 = 0.025;
+    const COOLING_STEP_S: f64 = 0.05;
     /// In a gap there is nothing to compare with.
     const GAP_S: f64 = 2.0;
     const GAP_STEP_S: f64 = 0.25;
+    /// Steps so little apart differ by the rounding of their times.
+    const SAME_S: f64 = 1e-9;
 
     /// The course of the first `count` samples.
     pub(crate) fn new(record: &Record, count: usize) -> Self {
@@ -68,10 +70,15 @@ impl Course {
             austenite: state.austenite(),
         };
         see(moment(&state));
+        let mut step = Step::new(model, Self::HEATING_STEP_S);
         for span in &self.spans {
+            // Almost all are as long as the one before.
+            if (step.dt_s - span.step_s).abs() > Self::SAME_S {
+                step = Step::new(model, span.step_s);
+            }
             let power_w = span.volts_squared / model.heater_ohm;
             for _ in 0..span.steps {
-                model.advance(&mut state, span.step_s, power_w);
+                step.advance(&mut state, power_w);
             }
             if span.sampled {
                 see(moment(&state));

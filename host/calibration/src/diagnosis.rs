@@ -138,15 +138,40 @@ fn supply_lost(record: &Record) -> Option<Diagnosis> {
 
 /// The heater's resistance over all pulses, by least squares in the current, less what else flows at rest.
 pub(crate) fn electrical(record: &Record) -> Option<Electrical> {
-    let others_a = others_a(record);
-    resistance(record, &record.drives, others_a)
+    let off: Vec<&Sample> = resting(record).collect();
+    let others_a = median_a(off.iter().copied());
+    let found = resistance(record, &record.drives, others_a)?;
+    // What flows at rest is known to a part of a milliampere, and all that is wrong with it is wrong with every pulse.
+    let error_a = 0.3e-3_f64.hypot(5e-3 / (off.len().max(1) as f64).sqrt());
+    let (sum_a, count) = record
+        .drives
+        .iter()
+        .flat_map(|drive| record.during(drive))
+        .fold((0.0, 0_u32), |(sum_a, count), sample| (sum_a + sample.current_a - others_a, count + 1));
+    let share = error_a * f64::from(count) / sum_a;
+    Some(Electrical { ohm: found.ohm, error_ohm: found.error_ohm.hypot(found.ohm * share) })
 }
 
-/// What flows with the heater off: the median before the first pulse, because a converter cuts noise off at 0.
+/// What flows with the heater off before the first pulse.
 fn others_a(record: &Record) -> f64 {
-    let mut currents: Vec<f64> = record.baseline().iter().map(|sample| sample.current_a).collect();
+    median_a(record.baseline().iter())
+}
+
+/// The median, because a converter cuts noise off at 0.
+fn median_a<'a>(samples: impl Iterator<Item = &'a Sample>) -> f64 {
+    let mut currents: Vec<f64> = samples.map(|sample| sample.current_a).collect();
     currents.sort_by(f64::total_cmp);
     currents.get(currents.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The samples with the heater off, a little after a pulse and before the next.
+fn resting(record: &Record) -> impl Iterator<Item = &Sample> {
+    const SETTLE_S: f64 = 0.15;
+    record.samples.iter().filter(|sample| {
+        let begun = record.drives.partition_point(|drive| drive.from_s - SETTLE_S <= sample.t_s);
+        let latest = begun.checked_sub(1).and_then(|index| record.drives.get(index));
+        latest.is_none_or(|drive| drive.until_s + SETTLE_S < sample.t_s)
+    })
 }
 
 fn resistance(record: &Record, drives: &[Drive], others_a: f64) -> Option<Electrical> {
@@ -199,20 +224,11 @@ fn heater(record: &Record, nominal: &Nominal) -> Option<Diagnosis> {
 
 /// Looks for current in every rest, the one before the first pulse too.
 fn stuck_on(record: &Record, nominal: &Nominal) -> Option<Diagnosis> {
-    const SETTLE_S: f64 = 0.15;
     const WINDOW: usize = 8;
     let voltage_v = record.samples.iter().map(|sample| sample.voltage_v).fold(0.0, f64::max);
     // A fifth of what the heater would draw.
     let expected_a = others_a(record) + 0.2 * voltage_v / nominal.heater_ohm;
-    let resting: Vec<&Sample> = record
-        .samples
-        .iter()
-        .filter(|sample| {
-            let drives = &record.drives;
-            let next = drives.partition_point(|drive| drive.from_s - SETTLE_S <= sample.t_s);
-            next == 0 || drives.get(next - 1).is_none_or(|drive| drive.until_s + SETTLE_S < sample.t_s)
-        })
-        .collect();
+    let resting: Vec<&Sample> = resting(record).collect();
     let worst_a = resting
         .windows(WINDOW)
         .map(|window| window.iter().map(|sample| sample.current_a).sum::<f64>() / WINDOW as f64)

@@ -78,6 +78,22 @@ impl Quantity {
         }
     }
 
+    /// No half interval is narrower: what the model's steps in time and the edges of a drive resolve.
+    pub(crate) const fn resolution(self) -> f64 {
+        match self {
+            Self::AusteniteStart | Self::AusteniteFinish | Self::MartensiteStart | Self::MartensiteFinish => {
+                0.05
+            }
+            Self::ThermistorLag => 0.01,
+            Self::ThermalResistance
+            | Self::TimeConstant
+            | Self::HeaterResistance
+            | Self::LatentHeat
+            | Self::FoilRise
+            | Self::Opening => 0.0,
+        }
+    }
+
     /// The widest half interval that still counts as identified: a share of the value, or kelvins.
     pub(crate) const fn widest(self) -> Width {
         match self {

@@ -8,8 +8,8 @@ use crate::nominal::{Nominal, Transformation};
 use crate::pulse_plan::Purpose;
 use crate::record::{Record, RecordError};
 use crate::residuals::{HeldOut, Residuals};
-use crate::solve::{Problem, Solution};
-use crate::space::{Candidate, Point, Space};
+use crate::solve::{Covariance, Problem, Solution};
+use crate::space::{COUNT, Candidate, Point, Space};
 
 /// What a record says of its hinge.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,7 +73,7 @@ pub fn fit(record: &Record, nominal: &Nominal) -> Result<Fit, RecordError> {
     }
     let space = space(record, nominal);
     let course = Course::new(record, held_out_from);
-    let start = search(record, &course, held_out_from, nominal, space);
+    let start = search(record, &course, held_out_from, nominal, space, 1e-6);
     let solution = Problem::new(record, &course, held_out_from, nominal, space).polish(&start);
     let candidate = space.at(&solution.point);
     let predicted = Problem::moments(&Course::new(record, record.samples.len()), &candidate);
@@ -101,7 +101,7 @@ pub(crate) fn provisional(record: &Record, nominal: &Nominal) -> Option<Model> {
     }
     let space = space(record, nominal);
     let course = Course::new(record, count);
-    let point = search(record, &course, count, nominal, space);
+    let point = search(record, &course, count, nominal, space, 1e-3);
     Some(space.at(&point).model)
 }
 
@@ -122,33 +122,46 @@ fn held_out_from(record: &Record) -> usize {
     drive.map_or(record.samples.len(), |drive| record.index_after(drive.from_s))
 }
 
-/// First the pulses below As, which have one optimum; then the whole from the best of several alloys.
-fn search(record: &Record, course: &Course, count: usize, nominal: &Nominal, space: Space) -> Point {
+/// First the pulses below As, which have one optimum; then the whole from the likeliest alloys, with a slow and a quick thermistor
+/// (whose lag may be taken for the film's), until nothing but noise is left.
+fn search(
+    record: &Record,
+    course: &Course,
+    count: usize,
+    nominal: &Nominal,
+    space: Space,
+    tolerance: f64,
+) -> Point {
     const SHIFTS_K: [f64; 11] = [-25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0];
-    const STARTS: usize = 2;
-    const ROUNDS: usize = 12;
+    const ALLOYS: usize = 2;
+    const LAGS: [f64; 3] = [1.5, 0.5, 1.0];
+    const NOISE: f64 = 1.3;
     let below = record
         .drives
         .iter()
         .find(|drive| drive.purpose > Purpose::Warm)
         .map_or(count, |drive| record.index_after(drive.from_s));
     let before = Course::new(record, below);
-    let (warm, _) = Problem::new(record, &before, below, nominal, space).descend(&Point::zeros(), ROUNDS);
+    let (warm, _) = Problem::new(record, &before, below, nominal, space).descend(&Point::zeros(), 1e-3);
     if below == count {
         return warm;
     }
     let mut problem = Problem::new(record, course, count, nominal, space);
-    let mut starts: Vec<(f64, Point)> = SHIFTS_K
-        .iter()
-        .map(|shift_k| space.shifted(&warm, *shift_k))
-        .map(|point| (problem.cost(&point), point))
-        .collect();
-    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let plain = space.unbiased(&warm, 1.0);
+    let mut alloys: Vec<(f64, f64)> =
+        SHIFTS_K.iter().map(|shift_k| (problem.cost(&space.shifted(&plain, *shift_k)), *shift_k)).collect();
+    alloys.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut best = (f64::INFINITY, warm);
-    for (_, start) in starts.iter().take(STARTS) {
-        let (point, cost) = problem.descend(start, ROUNDS);
-        if cost < best.0 {
-            best = (cost, point);
+    for lag in LAGS {
+        for (_, shift_k) in alloys.iter().take(ALLOYS) {
+            let start = space.shifted(&space.unbiased(&warm, lag), *shift_k);
+            let (point, cost) = problem.descend(&start, tolerance);
+            if cost < best.0 {
+                best = (cost, point);
+            }
+            if problem.correlation(&best.1) < NOISE {
+                return best.1;
+            }
         }
     }
     best.1
@@ -259,19 +272,36 @@ impl Judge<'_> {
         }
     }
 
-    /// By the slope of the quantity over the parameters, in which the fit is nearly linear.
+    /// From the covariance, to the second order: where film and foil happen to cool alike, the capacity's slope over the film's
+    /// share is nothing, and its bend is all.
     fn interval(&self, quantity: Quantity, best: f64) -> Verdict {
-        const STEP: f64 = 1e-4;
+        const STEP: f64 = 0.05;
+        let at = |moves: &[(usize, f64)]| {
+            let mut there = self.solution.point;
+            for (parameter, step) in moves {
+                there[*parameter] += step;
+            }
+            value(&self.space.at(&there).model, quantity).unwrap_or(best)
+        };
         let mut slope = Point::zeros();
-        for parameter in 0..slope.len() {
-            let mut ahead = self.solution.point;
-            ahead[parameter] += STEP;
-            let there = value(&self.space.at(&ahead).model, quantity).unwrap_or(best);
-            slope[parameter] = (there - best) / STEP;
+        let mut bend = Covariance::zeros();
+        for a in 0..COUNT {
+            let (ahead, behind) = (at(&[(a, STEP)]), at(&[(a, -STEP)]));
+            slope[a] = (ahead - behind) / (2.0 * STEP);
+            bend[(a, a)] = (ahead - 2.0 * best + behind) / (STEP * STEP);
+            for b in 0..a {
+                let corners =
+                    [(STEP, STEP, 1.0), (STEP, -STEP, -1.0), (-STEP, STEP, -1.0), (-STEP, -STEP, 1.0)];
+                let mixed: f64 = corners.iter().map(|(x, y, sign)| sign * at(&[(a, *x), (b, *y)])).sum();
+                bend[(a, b)] = mixed / (4.0 * STEP * STEP);
+                bend[(b, a)] = bend[(a, b)];
+            }
         }
-        let variance =
-            self.solution.covariance.map_or(f64::INFINITY, |covariance| slope.dot(&(covariance * slope)));
-        let half = SIGMAS * variance.max(0.0).sqrt();
+        let half = self.solution.covariance.map_or(f64::INFINITY, |covariance| {
+            let spread = bend * covariance;
+            let variance = slope.dot(&(covariance * slope)) + (spread * spread).trace() / 2.0;
+            (SIGMAS * variance.max(0.0).sqrt()).hypot(quantity.resolution()) + spread.trace().abs() / 2.0
+        });
         let most = match quantity.widest() {
             Width::Share(share) => share * best.abs(),
             Width::Absolute(most) => most,

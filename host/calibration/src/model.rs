@@ -95,39 +95,9 @@ impl Model {
         self.coupling_w_per_k / (self.coupling_w_per_k * self.loss_w_per_k + film * foil)
     }
 
-    /// Moves a hinge on by `dt_s` under a constant power. Exact in the film and the bead for a foil that changes evenly, of second
-    /// order in the foil, stable for steps up to some tenths of a second; no heat is made or lost.
+    /// Moves a hinge on by `dt_s` under a constant power.
     pub fn advance(&self, state: &mut State, dt_s: f64, power_w: f64) {
-        let film_loss = self.loss_w_per_k * self.film_loss_share;
-        let foil_loss = self.loss_w_per_k - film_loss;
-        let film_j_per_k = self.capacity_j_per_k * self.film_share;
-        let foil_j_per_k = self.capacity_j_per_k - film_j_per_k;
-        let out = self.coupling_w_per_k + film_loss;
-        let x = dt_s * out / film_j_per_k;
-        let left = (-x).exp();
-        let mean_left = (1.0 - left) / x;
-
-        let foil_rate = |foil_c: f64| {
-            let film_c = (power_w + self.coupling_w_per_k * foil_c + film_loss * self.ambient_c) / out;
-            let mean_film_c = film_c + (state.film_c - film_c) * mean_left;
-            let heat_w =
-                self.coupling_w_per_k * (mean_film_c - foil_c) - foil_loss * (foil_c - self.ambient_c);
-            (heat_w, film_c)
-        };
-        // Half a step ahead, with the latent heat as it is met there; then the whole step from what flows there.
-        let (heat_w, _) = foil_rate(state.foil_c);
-        let (middle_c, _) = self.foil_after(state, heat_w * dt_s / 2.0, foil_j_per_k);
-        let (heat_w, film_c) = foil_rate(middle_c);
-        let before_c = state.foil_c;
-        let (foil_c, phase) = self.foil_after(state, heat_w * dt_s, foil_j_per_k);
-        state.film_c = film_c + (state.film_c - film_c) * left;
-        state.foil_c = foil_c;
-        state.phase = phase;
-
-        let y = dt_s / self.lag_s;
-        let left = (-y).exp();
-        let rate_k = (foil_c - before_c) / y;
-        state.bead_c = foil_c - rate_k + (state.bead_c - before_c + rate_k) * left;
+        Step::new(self, dt_s).advance(state, power_w);
     }
 
     /// Temperature and phase of the foil once it took up `heat_j`.
@@ -165,6 +135,67 @@ impl Model {
             t_c -= excess_k / (1.0 + self.latent_j / foil_j_per_k * slope);
         }
         result
+    }
+}
+
+/// A step of one length, with what it needs of the exponential function. Exact in the film and the bead for a foil that changes
+/// evenly, of second order in the foil, stable for some tenths of a second; no heat is made or lost.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step<'a> {
+    model: &'a Model,
+    pub(crate) dt_s: f64,
+    film_loss: f64,
+    foil_loss: f64,
+    foil_j_per_k: f64,
+    /// What is left of the film's distance from its balance, after the step and on average.
+    film_left: f64,
+    film_mean_left: f64,
+    /// The same of the bead, after the step.
+    bead_left: f64,
+}
+
+impl<'a> Step<'a> {
+    pub(crate) fn new(model: &'a Model, dt_s: f64) -> Self {
+        let film_loss = model.loss_w_per_k * model.film_loss_share;
+        let film_j_per_k = model.capacity_j_per_k * model.film_share;
+        let x = dt_s * (model.coupling_w_per_k + film_loss) / film_j_per_k;
+        let film_left = (-x).exp();
+        Self {
+            model,
+            dt_s,
+            film_loss,
+            foil_loss: model.loss_w_per_k - film_loss,
+            foil_j_per_k: model.capacity_j_per_k - film_j_per_k,
+            film_left,
+            film_mean_left: (1.0 - film_left) / x,
+            bead_left: (-dt_s / model.lag_s).exp(),
+        }
+    }
+
+    pub(crate) fn advance(&self, state: &mut State, power_w: f64) {
+        let Model { ambient_c, coupling_w_per_k, lag_s, .. } = *self.model;
+        let before = *state;
+        let balance_c = |foil_c: f64| {
+            (power_w + coupling_w_per_k * foil_c + self.film_loss * ambient_c)
+                / (coupling_w_per_k + self.film_loss)
+        };
+        let heat_j = |foil_c: f64, span_s: f64| {
+            let film_c = balance_c(foil_c);
+            let mean_film_c = film_c + (before.film_c - film_c) * self.film_mean_left;
+            span_s * (coupling_w_per_k * (mean_film_c - foil_c) - self.foil_loss * (foil_c - ambient_c))
+        };
+        // Half a step ahead, with the latent heat as it is met there; then the whole step from what flows there.
+        let (middle_c, _) =
+            self.model.foil_after(state, heat_j(before.foil_c, self.dt_s / 2.0), self.foil_j_per_k);
+        let (foil_c, phase) = self.model.foil_after(state, heat_j(middle_c, self.dt_s), self.foil_j_per_k);
+        let film_c = balance_c(middle_c);
+        let behind_k = (foil_c - before.foil_c) * lag_s / self.dt_s;
+        *state = State {
+            film_c: film_c + (before.film_c - film_c) * self.film_left,
+            foil_c,
+            bead_c: foil_c - behind_k + (before.bead_c - before.foil_c + behind_k) * self.bead_left,
+            phase,
+        };
     }
 }
 

@@ -37,6 +37,8 @@ pub(crate) struct Solution {
 
 /// Rounding alone: a converter's steps are spread evenly.
 const LEAST_NOISE_COUNTS: f64 = 0.3;
+/// Evaluations, as a multiple of the parameters' number.
+const ROUNDS: usize = 12;
 /// What a reading's noise is taken for at first.
 const FIRST_NOISE_COUNTS: f64 = 1.2;
 
@@ -61,14 +63,19 @@ impl<'a> Problem<'a> {
     }
 
     /// The best point that is found from `start`, without its statistics.
-    pub(crate) fn descend(&mut self, start: &Point, rounds: usize) -> (Point, f64) {
+    pub(crate) fn descend(&mut self, start: &Point, tolerance: f64) -> (Point, f64) {
         self.point = *start;
         let (problem, report) =
-            LevenbergMarquardt::new().with_tol(1e-7).with_patience(rounds).minimize(self.clone());
+            LevenbergMarquardt::new().with_tol(tolerance).with_patience(ROUNDS).minimize(self.clone());
         let cost = 2.0 * report.objective_function;
         // Where the search broke off it still holds the best point so far.
         let cost = if cost.is_finite() { cost } else { f64::INFINITY };
         (problem.point, cost)
+    }
+
+    /// How much the residuals at a point hang together; 1 if they are noise.
+    pub(crate) fn correlation(&self, point: &Point) -> f64 {
+        correlation(&self.data_residuals(point))
     }
 
     /// The solution around a start near to it: once more with the noise that the residuals show, then the statistics.
@@ -83,7 +90,7 @@ impl<'a> Problem<'a> {
             for weight in &mut self.weights {
                 *weight /= factor;
             }
-            point = self.descend(&point, 12).0;
+            point = self.descend(&point, 1e-6).0;
         }
         let whitened = self.data_residuals(&point);
         let correlation = correlation(&whitened);

@@ -1,5 +1,8 @@
 //! The space that a fit searches: every parameter as its distance from the nominal one, in what it may stray. What the
 //! data leave open then stays within its spread, and adds that spread to the intervals.
+//!
+//! The coordinates are what readings show: the foil's settled rise and the slower of the two modes, not the loss and the capacity,
+//! which follow from them only with what is hardly seen of the film. So the valley of good fits is straight.
 
 use crate::diagnosis::Electrical;
 use crate::model::Model;
@@ -27,7 +30,11 @@ pub(crate) struct Space {
 
 impl Space {
     /// Place of the austenite start among the parameters.
-    pub(crate) const AS: usize = 4;
+    const AS: usize = 4;
+    /// Place of the thermistor's lag.
+    const LAG: usize = 11;
+    /// Places of what a pulse below As can't show.
+    const HIDDEN: core::ops::Range<usize> = 3..12;
 
     /// The space around the nominal hinge in air of `ambient_c`. The spreads are wide for what the data show, and for what they
     /// hardly show as wide as such parts differ.
@@ -35,18 +42,21 @@ impl Space {
         let at = &nominal.transformation;
         let (ohm, error_ohm) = heater
             .map_or((nominal.heater_ohm, 0.2 * nominal.heater_ohm), |heater| (heater.ohm, heater.error_ohm));
+        let capacity_j_per_k = nominal.time_constant_s / nominal.thermal_resistance_k_per_w;
+        let (film, foil) = (nominal.film_share, 1.0 - nominal.film_share);
+        let film_s = film * foil * capacity_j_per_k / nominal.coupling_w_per_k;
         let rows = [
-            (nominal.thermal_resistance_k_per_w.ln(), 1.0),
+            (Model::nominal(nominal, ambient_c).foil_rise_k_per_w().ln(), 1.0),
             (nominal.time_constant_s.ln(), 1.0),
             (ohm.ln(), error_ohm / ohm),
-            (nominal.latent_k.ln(), 0.4),
+            ((nominal.latent_k * foil).ln(), 0.4),
             (at.as_c, 15.0),
             ((at.af_c - at.as_c).ln(), 0.6),
             ((at.af_c - at.ms_c).ln(), 0.5),
             ((at.ms_c - at.mf_c).ln(), 0.6),
-            (nominal.film_share.ln(), 0.3),
+            (film.ln(), 0.3),
             (nominal.film_loss_share.ln(), 0.5),
-            (nominal.coupling_w_per_k.ln(), 0.5),
+            (film_s.ln(), 0.6),
             (nominal.lag_s.ln(), 0.7),
             (ambient_c, 2.0),
             (0.0, 0.3),
@@ -60,8 +70,8 @@ impl Space {
     /// The hinge at a point.
     pub(crate) fn at(&self, point: &Point) -> Candidate {
         let [
-            resistance,
-            tau,
+            rise,
+            slow,
             ohm,
             latent,
             as_c,
@@ -70,31 +80,52 @@ impl Space {
             back,
             film,
             film_loss,
-            coupling,
+            quick,
             lag,
             ambient_c,
             start_k,
         ] = (self.centre + self.spread.component_mul(point)).into();
         // A share of 1 would leave the foil nothing.
         let share = |x: f64| x.exp().min(0.9);
-        let loss_w_per_k = (-resistance).exp();
-        let capacity_j_per_k = tau.exp() * loss_w_per_k;
-        let film_share = share(film);
+        let (film_share, film_loss_share) = (share(film), share(film_loss));
+        let (rise_k_per_w, slow_s) = (rise.exp(), slow.exp());
+        let in_two = film_share * (1.0 - film_share);
+        let coupling_w_per_k = in_two * slow_s / rise_k_per_w / quick.exp();
+        // The loss that leaves the foil this rise: the root of loss + loss² s = 1 / rise.
+        let s = film_loss_share * (1.0 - film_loss_share) / coupling_w_per_k;
+        let loss_w_per_k = 2.0 / rise_k_per_w / (1.0 + (1.0 + 4.0 * s / rise_k_per_w).sqrt());
+        // The capacity whose slower mode has this time constant: the lesser root of what film and foil balance to.
+        let film_w_per_k = coupling_w_per_k + film_loss_share * loss_w_per_k;
+        let foil_w_per_k = coupling_w_per_k + (1.0 - film_loss_share) * loss_w_per_k;
+        let sum = film_w_per_k * (1.0 - film_share) + foil_w_per_k * film_share;
+        let product = film_w_per_k * foil_w_per_k - coupling_w_per_k * coupling_w_per_k;
+        let root = (sum * sum - 4.0 * in_two * product).max(0.0).sqrt();
+        let capacity_j_per_k = slow_s * 2.0 * product / (sum + root);
         let af_c = as_c + width.exp();
         let ms_c = af_c - hysteresis.exp();
         let model = Model {
             ambient_c,
             loss_w_per_k,
-            film_loss_share: share(film_loss),
+            film_loss_share,
             capacity_j_per_k,
             film_share,
-            coupling_w_per_k: coupling.exp(),
-            latent_j: latent.exp() * capacity_j_per_k * (1.0 - film_share),
+            coupling_w_per_k,
+            latent_j: latent.exp() * capacity_j_per_k,
             transformation: Transformation { mf_c: ms_c - back.exp(), ms_c, as_c, af_c },
             heater_ohm: ohm.exp(),
             lag_s: lag.exp(),
         };
         Candidate { model, start_k }
+    }
+
+    /// The point with everything nominal that a pulse below As can't show, but for a lag so many times the nominal.
+    pub(crate) fn unbiased(&self, point: &Point, lag: f64) -> Point {
+        let mut point = *point;
+        for parameter in Self::HIDDEN {
+            point[parameter] = 0.0;
+        }
+        point[Self::LAG] = lag.ln() / self.spread[Self::LAG];
+        point
     }
 
     /// The point with the austenite start so many kelvins off.

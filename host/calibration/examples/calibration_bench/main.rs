@@ -36,13 +36,14 @@ fn each<T: Send>(count: u64, work: impl Fn(u64) -> T + Sync) -> Vec<T> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let (mut hinges, mut seed, mut picture, mut verbose) = (200, 1, None, false);
+    let (mut hinges, mut seed, mut picture, mut verbose, mut with_faults) = (200, 1, None, false, true);
     while let Some(option) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{option}: expected a value after it"));
         match option.as_str() {
             "--hinges" => hinges = value()?.parse()?,
             "--seed" => seed = value()?.parse()?,
             "--picture" => picture = Some(value()?),
+            "--sound" => with_faults = false,
             "--verbose" => verbose = true,
             _ => {
                 return Err(format!(
@@ -66,6 +67,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     table::sound(&sound);
+    if let Some(path) = picture {
+        outcome::picture(&subject(0), &bounds, Path::new(&path))?;
+    }
+    if !with_faults {
+        return Ok(());
+    }
     let lengths: Vec<f64> = sound.iter().map(|outcome| outcome.length_s).collect();
     let broken: Result<Vec<Vec<faults::Verdict>>, String> = each(hinges, |number| {
         let length_s = lengths.get(usize::try_from(number).unwrap_or(0)).copied().unwrap_or(100.0);
@@ -82,8 +89,5 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     table::broken(&broken);
-    if let Some(path) = picture {
-        outcome::picture(&subject(0), &bounds, Path::new(&path))?;
-    }
     Ok(())
 }
