@@ -17,7 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
     ("zygote-calibration", &["zygote-core", "zygote-sim"]),
-    ("zygote-controller", &["zygote-protocol", "zygote-deployment"]),
+    ("zygote-controller", &["zygote-calibration", "zygote-protocol", "zygote-deployment"]),
     (
         "zygote-rehearsal",
         &[
@@ -33,6 +33,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "zygote-cli",
         &[
+            "zygote-calibration",
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
