@@ -21,6 +21,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "zygote-rehearsal",
         &[
+            "zygote-calibration",
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
