@@ -140,6 +140,7 @@ impl Space {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the same bits are meant")]
 mod tests {
     use super::*;
 

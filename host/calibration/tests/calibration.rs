@@ -1,5 +1,6 @@
 //! Calibrations of hinges on the simulated plant, held against what they truly are. `cargo xtask bench calibration` does the same at
 //! length.
+#![expect(clippy::expect_used, reason = "a helper that fails fails its test")]
 
 #[path = "../examples/calibration_bench/drive.rs"]
 mod drive;
@@ -48,6 +49,8 @@ fn sound_hinges_are_measured_within_what_is_accepted_and_the_intervals_cover() {
         let Session { record, ended } = driven(&subject, None);
         assert_eq!(ended, None, "hinge {seed}");
         let fit = fit(&record, &subject.nominal).unwrap();
+        let has_af = fit.value(Quantity::AusteniteFinish).is_some();
+        assert!(has_af || !subject.can_reach_af(20.0), "hinge {seed} has no Af");
         let held_out = fit.held_out.expect("a pulse was held out");
         assert!(held_out.worse_rmse_k() <= 2.0, "hinge {seed}: {held_out:?}");
         for quantity in Quantity::ALL {
@@ -67,6 +70,9 @@ fn sound_hinges_are_measured_within_what_is_accepted_and_the_intervals_cover() {
 fn a_hinge_that_breaks_meanwhile_is_given_no_wrong_value() {
     for verdict in faults::all(&Subject::new(SEED, Spread::Plant), &Bounds::default(), 150.0, SEED).unwrap() {
         assert!(!verdict.is_wrong(), "{verdict}");
+        if matches!(verdict.fault, Fault::MosfetStuckOn(_)) {
+            assert!(verdict.noticed && verdict.identified == 0, "{verdict}");
+        }
     }
 }
 
