@@ -232,12 +232,15 @@ impl Judge<'_> {
         if let Some(fault) = self.fault {
             return Some(Why::Fault(fault));
         }
+        // Asked this way round, a NaN is a misfit.
         let rmse_k = self.residuals.rmse_k;
-        if rmse_k > MOST_MISFIT_K {
+        let fits = rmse_k <= MOST_MISFIT_K;
+        if !fits {
             return Some(Why::Misfit { rmse_k, most_k: MOST_MISFIT_K });
         }
         let rmse_k = self.held_out.map_or(0.0, |held_out| held_out.worse_rmse_k());
-        (rmse_k > MOST_HELD_OUT_K).then_some(Why::HeldOut { rmse_k, most_k: MOST_HELD_OUT_K })
+        let predicts = rmse_k <= MOST_HELD_OUT_K;
+        (!predicts).then_some(Why::HeldOut { rmse_k, most_k: MOST_HELD_OUT_K })
     }
 
     /// What the foil would have had to get to, and how far it got.
@@ -245,10 +248,13 @@ impl Judge<'_> {
         // A cosine begins flat: less than this past As is hardly seen.
         const PAST_K: f64 = 2.0;
         const NEARLY: f64 = 0.98;
+        // Less austenite gives back too little heat.
+        const HALF: f64 = 0.5;
         let highest_c = self.fitted.iter().map(|moment| moment.foil_c).fold(f64::NEG_INFINITY, f64::max);
         let turned = self.fitted.iter().map(|moment| moment.austenite).fold(0.0, f64::max);
         let at: Transformation = self.candidate.model.transformation;
-        let not_reached = |expected_c| Some(Why::NotReached { highest_c, expected_c });
+        let unless =
+            |reached: bool, expected_c| (!reached).then_some(Why::NotReached { highest_c, expected_c });
         match quantity {
             Quantity::ThermalResistance
             | Quantity::TimeConstant
@@ -256,13 +262,11 @@ impl Judge<'_> {
             | Quantity::FoilRise
             | Quantity::ThermistorLag
             | Quantity::Opening => None,
-            Quantity::AusteniteStart if highest_c < at.as_c + PAST_K => not_reached(at.as_c + PAST_K),
-            Quantity::AusteniteStart => None,
-            Quantity::AusteniteFinish | Quantity::LatentHeat if turned < NEARLY => not_reached(at.af_c),
-            Quantity::AusteniteFinish | Quantity::LatentHeat => None,
-            Quantity::MartensiteStart | Quantity::MartensiteFinish if turned < 0.5 => not_reached(at.af_c),
+            Quantity::AusteniteStart => unless(highest_c >= at.as_c + PAST_K, at.as_c + PAST_K),
+            Quantity::AusteniteFinish | Quantity::LatentHeat => unless(turned >= NEARLY, at.af_c),
+            Quantity::MartensiteStart | Quantity::MartensiteFinish if turned < HALF => unless(false, at.af_c),
             Quantity::MartensiteStart | Quantity::MartensiteFinish => {
-                let hot = self.fitted.iter().position(|moment| moment.austenite >= 0.5).unwrap_or(0);
+                let hot = self.fitted.iter().position(|moment| moment.austenite >= HALF).unwrap_or(0);
                 let after = self.fitted.iter().skip(hot);
                 let lowest_c = after.map(|moment| moment.foil_c).fold(f64::INFINITY, f64::min);
                 let expected_c =

@@ -79,6 +79,7 @@ fn falling(t_c: f64, low_c: f64, high_c: f64) -> (f64, f64) {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the same bits are meant")]
 mod tests {
     use super::*;
     use crate::nominal::Nominal;

@@ -60,9 +60,13 @@ impl HeldOut {
         })
     }
 
-    /// The worse of the two.
+    /// The worse of the two, a NaN if either is.
     pub fn worse_rmse_k(&self) -> f64 {
-        self.heat_rmse_k.max(self.cool_rmse_k)
+        if self.heat_rmse_k >= self.cool_rmse_k || self.heat_rmse_k.is_nan() {
+            self.heat_rmse_k
+        } else {
+            self.cool_rmse_k
+        }
     }
 }
 

@@ -193,6 +193,7 @@ fn correlation(residuals: &[f64]) -> f64 {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the same bits are meant")]
 mod tests {
     use super::*;
 

@@ -10,7 +10,7 @@ mod hinges;
 mod outcome;
 mod table;
 
-use hinges::Subject;
+use hinges::{Spread, Subject};
 use outcome::Outcome;
 use std::error::Error;
 use std::path::Path;
@@ -35,19 +35,21 @@ fn each<T: Send>(count: u64, work: impl Fn(u64) -> T + Sync) -> Vec<T> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
+    let (mut spread, mut broken) = (Spread::Plant, None);
     let mut arguments = std::env::args().skip(1);
-    let (mut hinges, mut seed, mut picture, mut verbose, mut with_faults) = (200, 1, None, false, true);
+    let (mut hinges, mut seed, mut picture, mut verbose) = (200, 1, None, false);
     while let Some(option) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{option}: expected a value after it"));
         match option.as_str() {
             "--hinges" => hinges = value()?.parse()?,
             "--seed" => seed = value()?.parse()?,
             "--picture" => picture = Some(value()?),
-            "--sound" => with_faults = false,
+            "--broken" => broken = Some(value()?.parse()?),
+            "--wide" => spread = Spread::Wide,
             "--verbose" => verbose = true,
             _ => {
                 return Err(format!(
-                    "unknown option `{option}`, expected --hinges N, --seed S, --picture FILE or --verbose"
+                    "unknown option `{option}`, expected --hinges N, --broken N, --seed S, --wide, --picture FILE or --verbose"
                 )
                 .into());
             }
@@ -55,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let bounds = Bounds::default();
     // Far apart, so that one seed's hinges are not another's.
-    let subject = |number: u64| Subject::new(seed * 1_000_003 + number);
+    let subject = |number: u64| Subject::new(seed * 1_000_003 + number, spread);
     let sound: Result<Vec<Outcome>, String> =
         each(hinges, |number| outcome::sound(&subject(number), &bounds).map_err(|error| error.to_string()))
             .into_iter()
@@ -70,11 +72,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Some(path) = picture {
         outcome::picture(&subject(0), &bounds, Path::new(&path))?;
     }
-    if !with_faults {
-        return Ok(());
-    }
     let lengths: Vec<f64> = sound.iter().map(|outcome| outcome.length_s).collect();
-    let broken: Result<Vec<Vec<faults::Verdict>>, String> = each(hinges, |number| {
+    let broken: Result<Vec<Vec<faults::Verdict>>, String> = each(broken.unwrap_or(hinges), |number| {
         let length_s = lengths.get(usize::try_from(number).unwrap_or(0)).copied().unwrap_or(100.0);
         faults::all(&subject(number), &bounds, length_s, seed + number).map_err(|error| error.to_string())
     })

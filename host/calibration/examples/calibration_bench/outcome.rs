@@ -15,6 +15,8 @@ pub(crate) struct Outcome {
     pub(crate) held_out: Option<HeldOut>,
     pub(crate) ended: Option<Ended>,
     pub(crate) length_s: f64,
+    /// Its supply takes it past Af.
+    pub(crate) can_reach_af: bool,
     /// Highest reading.
     pub(crate) highest_c: f64,
 }
@@ -35,6 +37,7 @@ pub(crate) fn sound(subject: &Subject, bounds: &Bounds) -> Result<Outcome, Box<d
         held_out: fit.held_out,
         ended: session.ended,
         length_s: samples.last().map_or(0.0, |sample| sample.t_s),
+        can_reach_af: subject.can_reach_af(bounds.max_on_s),
         highest_c: samples.iter().map(|sample| sample.reading_c).fold(0.0, f64::max),
     })
 }
@@ -47,9 +50,20 @@ pub(crate) fn picture(subject: &Subject, bounds: &Bounds, path: &Path) -> Result
     Ok(())
 }
 
+impl Outcome {
+    /// Whether a quantity was identified.
+    pub(crate) fn has(&self, quantity: Quantity) -> bool {
+        let same = |row: &&(Quantity, f64, Verdict)| row.0 == quantity;
+        self.verdicts.iter().find(same).is_some_and(|row| matches!(row.2, Verdict::Identified(_)))
+    }
+}
+
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:.0} s, {:.1} °C", self.length_s, self.highest_c)?;
+        if !self.can_reach_af {
+            write!(f, ", too weak")?;
+        }
         if let Some(ended) = &self.ended {
             write!(f, ", {ended:?}")?;
         }

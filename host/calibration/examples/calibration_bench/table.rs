@@ -56,11 +56,16 @@ pub(crate) fn sound(outcomes: &[Outcome]) {
     }
     let mut lengths: Vec<f64> = outcomes.iter().map(|outcome| outcome.length_s).collect();
     let highest_c = outcomes.iter().map(|outcome| outcome.highest_c).fold(0.0, f64::max);
+    let strong = outcomes.iter().filter(|outcome| outcome.can_reach_af);
     let middle = median(&mut lengths);
     println!(
-        "\nOne calibration takes {middle:.0} s ({:.0} s at most); the hottest reading was {highest_c:.1} °C; {} ended early.\n",
+        "\nOne calibration takes {middle:.0} s ({:.0} s at most); the hottest reading was {highest_c:.1} °C; {} ended early; \
+         {} of {} supplies take their hinge past Af within a pulse, and {} of these have an Af.\n",
         lengths.last().copied().unwrap_or(0.0),
-        outcomes.iter().filter(|outcome| outcome.ended.is_some()).count()
+        outcomes.iter().filter(|outcome| outcome.ended.is_some()).count(),
+        strong.clone().count(),
+        outcomes.len(),
+        strong.filter(|outcome| outcome.has(Quantity::AusteniteFinish)).count(),
     );
 }
 
