@@ -137,7 +137,7 @@ mod tests {
             t_s: f64::from(index) * 0.1,
             reading_c: 22.0,
             voltage_v: 5.0,
-            current_a: 0.0,
+            current_a: Some(0.0),
         };
         let drive = |&(from_s, until_s)| Drive { from_s, until_s, duty: 0.5, purpose: Purpose::Probe };
         Record { samples: (0..=100).map(sample).collect(), drives: drives.iter().map(drive).collect() }

@@ -137,9 +137,9 @@ fn supply_lost(record: &Record) -> Option<Diagnosis> {
     (got_v < LEAST_V).then_some(Diagnosis::SupplyLost { got_v, expected_v: LEAST_V })
 }
 
-/// The heater's resistance over all pulses, by least squares in the current, less what else flows at rest.
+/// The heater's resistance over all pulses in which it was on alone, by least squares in the current, less what else flows at rest.
 pub(crate) fn electrical(record: &Record) -> Option<Electrical> {
-    let off: Vec<&Sample> = resting(record).collect();
+    let off: Vec<&Sample> = resting(record).filter(|sample| sample.current_a.is_some()).collect();
     let others_a = median_a(off.iter().copied());
     let found = resistance(record, &record.drives, others_a)?;
     // What flows at rest is known to a part of a milliampere, and all that is wrong with it is wrong with every pulse.
@@ -148,7 +148,8 @@ pub(crate) fn electrical(record: &Record) -> Option<Electrical> {
         .drives
         .iter()
         .flat_map(|drive| record.during(drive))
-        .fold((0.0, 0_u32), |(sum_a, count), sample| (sum_a + sample.current_a - others_a, count + 1));
+        .filter_map(|sample| sample.current_a)
+        .fold((0.0, 0_u32), |(sum_a, count), current_a| (sum_a + current_a - others_a, count + 1));
     let share = error_a * f64::from(count) / sum_a;
     Some(Electrical { ohm: found.ohm, error_ohm: found.error_ohm.hypot(found.ohm * share) })
 }
@@ -160,7 +161,7 @@ fn others_a(record: &Record) -> f64 {
 
 /// The median, because a converter cuts noise off at 0.
 fn median_a<'a>(samples: impl Iterator<Item = &'a Sample>) -> f64 {
-    let mut currents: Vec<f64> = samples.map(|sample| sample.current_a).collect();
+    let mut currents: Vec<f64> = samples.filter_map(|sample| sample.current_a).collect();
     currents.sort_by(f64::total_cmp);
     currents.get(currents.len() / 2).copied().unwrap_or(0.0)
 }
@@ -179,7 +180,7 @@ fn resistance(record: &Record, drives: &[Drive], others_a: f64) -> Option<Electr
     let pairs: Vec<(f64, f64)> = drives
         .iter()
         .flat_map(|drive| record.during(drive).iter().map(|sample| (drive.duty * sample.voltage_v, sample)))
-        .map(|(mean_v, sample)| (mean_v, sample.current_a - others_a))
+        .filter_map(|(mean_v, sample)| Some((mean_v, sample.current_a? - others_a)))
         .collect();
     if pairs.len() < FEWEST {
         return None;
@@ -229,11 +230,9 @@ fn stuck_on(record: &Record, nominal: &Nominal) -> Option<Diagnosis> {
     let voltage_v = record.samples.iter().map(|sample| sample.voltage_v).fold(0.0, f64::max);
     // A fifth of what the heater would draw.
     let expected_a = others_a(record) + 0.2 * voltage_v / nominal.heater_ohm;
-    let resting: Vec<&Sample> = resting(record).collect();
-    let worst_a = resting
-        .windows(WINDOW)
-        .map(|window| window.iter().map(|sample| sample.current_a).sum::<f64>() / WINDOW as f64)
-        .fold(0.0, f64::max);
+    let resting: Vec<f64> = resting(record).filter_map(|sample| sample.current_a).collect();
+    let worst_a =
+        resting.windows(WINDOW).map(|window| window.iter().sum::<f64>() / WINDOW as f64).fold(0.0, f64::max);
     if worst_a > expected_a {
         return Some(Diagnosis::StuckOn { got_a: worst_a, expected_a });
     }

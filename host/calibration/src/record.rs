@@ -11,8 +11,8 @@ pub struct Sample {
     pub reading_c: f64,
     /// Voltage at the input of the main switch.
     pub voltage_v: f64,
-    /// Current out of the supply, all consumers together.
-    pub current_a: f64,
+    /// Current out of the supply, all consumers together; none while another hinge was heated, so that it isn't known whose it is.
+    pub current_a: Option<f64>,
 }
 
 /// A pulse that was driven. Its times matter: 0.1 s too long is 0.1 J at 1 W, of some 5 J in all.
@@ -101,7 +101,7 @@ impl Record {
             for (quantity, got) in [
                 ("temperature", sample.reading_c),
                 ("voltage", sample.voltage_v),
-                ("current", sample.current_a),
+                ("current", sample.current_a.unwrap_or_default()),
             ] {
                 if !got.is_finite() {
                     return Err(RecordError::SampleValue { index, quantity, got });

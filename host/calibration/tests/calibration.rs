@@ -187,7 +187,7 @@ fn a_record_fits_the_same_each_time_and_is_drawn() {
 
 #[test]
 fn a_record_that_contradicts_itself_is_refused_with_its_place() {
-    let sample = |t_s| Sample { t_s, reading_c: 22.0, voltage_v: 5.0, current_a: 0.0 };
+    let sample = |t_s| Sample { t_s, reading_c: 22.0, voltage_v: 5.0, current_a: Some(0.0) };
     let backwards = Record { samples: vec![sample(1.0), sample(0.5)], drives: Vec::new() };
     let error = fit(&backwards, &Nominal::default()).unwrap_err();
     assert_eq!(error, RecordError::SampleTime { index: 1, after_s: 1.0, got_s: 0.5 });

@@ -123,7 +123,8 @@ fn an_interrupted_calibration_leaves_nothing_on_and_goes_on_with_all_that_was_me
     let first = run(None, None, 900);
     assert!(matches!(first.outcome, Err(CalibrateError::Interrupted)), "{:?}", first.outcome);
     assert!(first.all_off());
-    let samples = |hinges: &[Hinge]| hinges.iter().map(|hinge| hinge.record.samples.len()).collect::<Vec<_>>();
+    let samples =
+        |hinges: &[Hinge]| hinges.iter().map(|hinge| hinge.record.samples.len()).collect::<Vec<_>>();
     let (before, drives) = (samples(&first.hinges), first.hinges[0].record.drives.clone());
     assert!(before.iter().all(|count| *count > 20) && !drives.is_empty(), "{before:?}, {drives:?}");
     let second = run(Some(&first.kept), None, usize::MAX);
@@ -146,7 +147,8 @@ fn s6_a_thermistor_that_comes_off_ends_its_hinge_and_the_others_go_on() {
     let endings: Vec<_> = ended.hinges.iter().map(|hinge| hinge.ending.clone().unwrap()).collect();
     assert_eq!((&endings[0], &endings[2]), (&Ending::Done, &Ending::Done));
     assert!(matches!(endings[1], Ending::Refused(_) | Ending::Fault(_)), "{:?}", endings[1]);
-    let known = Quantity::ALL.iter().filter(|quantity| ended.hinges[1].fit().unwrap().value(**quantity).is_some());
+    let known =
+        Quantity::ALL.iter().filter(|quantity| ended.hinges[1].fit().unwrap().value(**quantity).is_some());
     assert_eq!(known.count(), 0, "nothing is known of a hinge that nobody measured");
 }
 
@@ -165,7 +167,10 @@ fn s6_a_mosfet_that_sticks_ends_the_calibration_with_everything_off() {
 fn s5_a_thermistor_that_is_not_there_is_told_before_anything_is_heated() {
     let ended = run(None, Some((0, Broken::ThermistorOpen(1))), usize::MAX);
     let error = ended.outcome.unwrap_err();
-    assert!(matches!(&error, CalibrateError::Thermistors(wrong) if wrong.len() == 1 && wrong[0].0 == 1), "{error}");
+    assert!(
+        matches!(&error, CalibrateError::Thermistors(wrong) if wrong.len() == 1 && wrong[0].0 == 1),
+        "{error}"
+    );
     assert!(ended.all_off());
     assert!(ended.hinges.iter().all(|hinge| hinge.record.samples.is_empty()));
 }

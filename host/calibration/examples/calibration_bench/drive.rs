@@ -122,7 +122,7 @@ impl Rig {
                 t_s: self.now_s(),
                 reading_c,
                 voltage_v: f64::from(supply.0) / 1000.0,
-                current_a: f64::from(current.0) / 1000.0,
+                current_a: Some(f64::from(current.0) / 1000.0),
             });
         }
         if !(RAIL..=ADC_FULL_SCALE - RAIL).contains(&counts) {

@@ -1,7 +1,6 @@
 //! Pulses side by side: one program, watched until every hinge of it has rested. What was measured is given to the hinges'
 //! records as it comes; whoever calls decides what is kept.
 
-use super::currents::{Currents, Load};
 use super::hinge::Hinge;
 use super::sampler::{Look, Sampler};
 use crate::Transport;
@@ -82,8 +81,6 @@ impl Batch {
         session: &mut Session<T>,
         sampler: &mut Sampler,
         hinges: &mut [Hinge],
-        currents: &Currents,
-        ohms: &BTreeMap<usize, f64>,
         interrupted: &dyn Fn() -> bool,
     ) -> Result<End, RequestError> {
         let channels: Vec<u16> =
@@ -104,7 +101,7 @@ impl Batch {
                 }
             }
             let looks = sampler.look(session, &channels)?;
-            self.sample(&looks, hinges, currents, ohms);
+            self.sample(&looks, hinges);
             if !running && self.members.iter().all(|(_, course)| course.rested) {
                 return Ok(End::Rested);
             }
@@ -131,25 +128,10 @@ impl Batch {
         }
     }
 
-    fn sample(
-        &mut self,
-        looks: &BTreeMap<u16, Look>,
-        hinges: &mut [Hinge],
-        currents: &Currents,
-        ohms: &BTreeMap<usize, f64>,
-    ) {
-        let load = |at: &usize, hinge: &Hinge, look: &Look| Load {
-            duty: look.duty,
-            ohm: ohms.get(at).copied().unwrap_or(hinge.nominal.heater_ohm),
-        };
-        let all: Vec<Load> = self
-            .members
-            .iter()
-            .filter_map(|(at, _)| {
-                let hinge = hinges.get(*at)?;
-                Some(load(at, hinge, looks.get(&hinge.channel)?))
-            })
-            .collect();
+    fn sample(&mut self, looks: &BTreeMap<u16, Look>, hinges: &mut [Hinge]) {
+        // Of all heaters of this program: others are off.
+        let on = |channel: &u16| looks.get(channel).is_some_and(|look| look.duty > 0.0);
+        let driven: Vec<u16> = looks.keys().copied().filter(|channel| on(channel)).collect();
         for (at, course) in &mut self.members {
             let Some(hinge) = hinges.get_mut(*at) else { continue };
             let Some(look) = looks.get(&hinge.channel) else { continue };
@@ -157,7 +139,8 @@ impl Batch {
                 continue;
             }
             let Some(reading_c) = look.reading_c else { continue };
-            let current_a = currents.of(load(at, hinge, look), &all, look.sum_a);
+            let alone = driven.iter().all(|channel| *channel == hinge.channel);
+            let current_a = alone.then_some(look.sum_a);
             let later = hinge.record.samples.last().is_none_or(|last| look.t_s > last.t_s);
             if later {
                 let Look { t_s, supply_v: voltage_v, .. } = *look;

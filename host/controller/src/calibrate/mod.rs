@@ -2,15 +2,14 @@
 //! samples. What the samples mean is that crate's business.
 //!
 //! ```text
-//!   thermistors --> watch, all off --> probes, one hinge after the other --> pulses, side by side --> .. --> every hinge ended
-//!                                        who draws what?                     as the supply allows
+//!   thermistors --> watch, all off --> probes --> pulses side by side --> full power --> every hinge ended
+//!                                     one by one   as the supply allows     one by one
 //! ```
 //!
 //! A pulse that is cut short leaves nothing in the records; everything else is kept by the caller after each step, so that a
 //! calibration which was interrupted goes on where it was.
 
 mod batch;
-mod currents;
 mod hinge;
 mod pulse_step;
 mod records;
@@ -25,7 +24,6 @@ use crate::deploy::{make_ready, start, upload};
 use crate::session::{RequestError, Session};
 use crate::{DeployError, Transport};
 use batch::{Batch, End};
-use currents::Currents;
 use sampler::{Look, Sampler};
 use std::collections::BTreeMap;
 use zygote_calibration::{Next, Pulse, Purpose, Sample};
@@ -36,6 +34,8 @@ use zygote_protocol::{Command, Fault, Limits, Millis, RigId};
 const FIRST_LOOK: u32 = 20;
 /// A hinge whose pulse was cut short cools for so long at the most before it is asked for another.
 const COOLING_S: f64 = 300.0;
+/// Samples so near to a pulse's ends may have been taken before or after.
+const EDGE_S: f64 = 0.05;
 /// Cool again: so near to where it began.
 const COOL_K: f64 = 1.5;
 
@@ -113,15 +113,8 @@ pub fn calibrate<T: Transport>(
     let last_s = hinges.iter().filter_map(|hinge| hinge.record.samples.last()).map(|sample| sample.t_s);
     let now = session.status()?.at;
     let sampler = Sampler::new(last_s.reduce(f64::max), now);
-    let mut bench = Bench {
-        session,
-        calibration,
-        hinges,
-        sampler,
-        currents: Currents::default(),
-        ohms: BTreeMap::new(),
-        run: calibration.run,
-    };
+    let mut bench =
+        Bench { session, calibration, hinges, sampler, ohms: BTreeMap::new(), run: calibration.run };
     let ended = bench.first_look().and_then(|()| bench.measure(keep, show));
     if ended.is_err() {
         // Perhaps something is armed; the error is what the user must know, not whether this last word got through.
@@ -130,12 +123,19 @@ pub fn calibrate<T: Transport>(
     ended
 }
 
+/// Only the sum of all currents is measured, so heaters are measured one after the other.
+fn is_alone(pulse: &Pulse) -> bool {
+    match pulse.purpose {
+        Purpose::Probe | Purpose::HeldOut => true,
+        Purpose::Warm | Purpose::Ramp | Purpose::Again => false,
+    }
+}
+
 struct Bench<'a, T> {
     session: &'a mut Session<T>,
     calibration: &'a Calibration<'a>,
     hinges: &'a mut [Hinge],
     sampler: Sampler,
-    currents: Currents,
     /// Resistance of heaters that were on alone.
     ohms: BTreeMap<usize, f64>,
     run: u32,
@@ -148,9 +148,6 @@ impl<T: Transport> Bench<'_, T> {
         let mut looks = BTreeMap::new();
         for _ in 0..FIRST_LOOK {
             looks = self.look(&channels)?;
-            if let Some(look) = looks.values().next() {
-                self.currents.rest(look.sum_a);
-            }
         }
         let errors = thermistors::check(self.hinges, &looks);
         if errors.is_empty() {
@@ -197,12 +194,14 @@ impl<T: Transport> Bench<'_, T> {
                 })
                 .collect();
             let room = usize::from(self.session.info().buffers.steps).max(1);
-            // Alone, so that it is known who draws what.
-            let probe = pulses.iter().find(|(_, pulse)| pulse.purpose == Purpose::Probe);
-            let together = match probe {
-                Some(probe) => std::slice::from_ref(probe),
-                None => pulses.get(..room.min(pulses.len())).unwrap_or_default(),
-            };
+            // Those side by side before those one after the other: by then more is known of them.
+            let (alone, beside): (Vec<_>, Vec<_>) =
+                pulses.into_iter().partition(|(_, pulse)| is_alone(pulse));
+            let probes: Vec<_> =
+                alone.iter().copied().filter(|(_, pulse)| pulse.purpose == Purpose::Probe).collect();
+            let next = [probes, beside, alone].into_iter().find(|pulses| !pulses.is_empty());
+            let next = next.unwrap_or_default();
+            let together = next.get(..room.min(next.len())).unwrap_or_default();
             show(&self.progress(self.describe(together)));
             self.pulse(together)?;
         }
@@ -245,7 +244,8 @@ impl<T: Transport> Bench<'_, T> {
                 let Some(hinge) = self.hinges.get_mut(*at) else { continue };
                 let Some(look) = looks.get(&hinge.channel) else { continue };
                 if let Some(reading_c) = look.reading_c {
-                    let Look { t_s, supply_v: voltage_v, sum_a: current_a, .. } = *look;
+                    let Look { t_s, supply_v: voltage_v, sum_a, .. } = *look;
+                    let current_a = Some(sum_a);
                     hinge.record.samples.push(Sample { t_s, reading_c, voltage_v, current_a });
                 }
             }
@@ -268,7 +268,15 @@ impl<T: Transport> Bench<'_, T> {
             .filter_map(|(at, pulse)| {
                 let hinge = self.hinges.get(*at)?;
                 let ohm = self.ohms.get(at).copied().unwrap_or(hinge.nominal.heater_ohm);
-                Some(pulse_step::step(hinge, pulse, supply_v, ohm))
+                Some((is_alone(pulse), pulse_step::step(hinge, pulse, supply_v, ohm)))
+            })
+            .zip(0..)
+            .map(|((alone, mut step), index): (_, u16)| {
+                if let Some(before) = index.checked_sub(1).filter(|_| alone) {
+                    // There is room for four.
+                    step.after.push(before).ok();
+                }
+                step
             })
             .collect();
         let id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
@@ -276,14 +284,7 @@ impl<T: Transport> Bench<'_, T> {
         upload(self.session, self.run, &id, &steps)?;
         start(self.session, self.run, id, self.limits())?;
         let mut batch = Batch::new(pulses);
-        let end = batch.watch(
-            self.session,
-            &mut self.sampler,
-            self.hinges,
-            &self.currents,
-            &self.ohms,
-            self.calibration.interrupted,
-        );
+        let end = batch.watch(self.session, &mut self.sampler, self.hinges, self.calibration.interrupted);
         for at in batch.rested() {
             if let Some(hinge) = self.hinges.get_mut(at) {
                 hinge.keep();
@@ -313,19 +314,25 @@ impl<T: Transport> Bench<'_, T> {
         }
     }
 
+    /// From pulses of heaters that were on alone.
     fn learn_resistance(&mut self, pulses: &[(usize, Pulse)]) {
-        let [(at, _)] = pulses else { return };
-        let Some(hinge) = self.hinges.get(*at) else { return };
-        let Some(drive) = hinge.record.drives.last() else { return };
-        let measured: Vec<(f64, f64, f64)> = hinge
-            .record
-            .samples
-            .iter()
-            .filter(|sample| sample.t_s > drive.from_s + 0.05 && sample.t_s < drive.until_s - 0.05)
-            .map(|sample| (drive.duty, sample.voltage_v, sample.current_a))
-            .collect();
-        if let Some(ohm) = self.currents.resistance(&measured) {
-            self.ohms.insert(*at, ohm);
+        for (at, _) in pulses.iter().filter(|(_, pulse)| is_alone(pulse)) {
+            let Some(hinge) = self.hinges.get(*at) else { continue };
+            let Some(drive) = hinge.record.drives.last() else { continue };
+            let idle: Vec<f64> =
+                hinge.record.baseline().iter().filter_map(|sample| sample.current_a).collect();
+            let idle_a = idle.iter().sum::<f64>() / f64::from(u32::try_from(idle.len()).unwrap_or(1).max(1));
+            let (mut volts, mut amps) = (0.0, 0.0);
+            for sample in &hinge.record.samples {
+                let inside = sample.t_s > drive.from_s + EDGE_S && sample.t_s < drive.until_s - EDGE_S;
+                if let Some(current_a) = sample.current_a.filter(|_| inside) {
+                    volts += drive.duty * sample.voltage_v;
+                    amps += current_a - idle_a;
+                }
+            }
+            if amps > 0.0 && volts > 0.0 {
+                self.ohms.insert(*at, volts / amps);
+            }
         }
     }
 

@@ -34,8 +34,8 @@ struct MeasuredHinge {
     ending: Option<KeptEnding>,
     /// From, until (s), duty, purpose.
     drives: Vec<(f64, f64, f64, KeptPurpose)>,
-    /// Time (s), reading (°C), voltage (V), current (A).
-    samples: Vec<(f64, f64, f64, f64)>,
+    /// Time (s), reading (°C), voltage (V), current (A) if no other hinge was heated.
+    samples: Vec<(f64, f64, f64, Option<f64>)>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -185,7 +185,7 @@ impl MeasuredHinge {
             duty,
             purpose: purpose(kept),
         };
-        let sample = |(t_s, reading_c, voltage_v, current_a): (f64, f64, f64, f64)| Sample {
+        let sample = |(t_s, reading_c, voltage_v, current_a): (f64, f64, f64, Option<f64>)| Sample {
             t_s,
             reading_c,
             voltage_v,
