@@ -44,6 +44,8 @@ struct Off {
 /// The pulses of one program, in the order of its steps: which hinge, and which pulse.
 pub(crate) struct Batch {
     members: Vec<(usize, Course)>,
+    /// Channels that had power at the look before.
+    driven: Vec<u16>,
 }
 
 impl Batch {
@@ -59,7 +61,7 @@ impl Batch {
             };
             (*hinge, course)
         };
-        Self { members: pulses.iter().map(course).collect() }
+        Self { members: pulses.iter().map(course).collect(), driven: Vec::new() }
     }
 
     /// Hinges whose pulse and rest are over.
@@ -139,7 +141,7 @@ impl Batch {
                 continue;
             }
             let Some(reading_c) = look.reading_c else { continue };
-            let alone = driven.iter().all(|channel| *channel == hinge.channel);
+            let alone = driven.iter().chain(&self.driven).all(|channel| *channel == hinge.channel);
             let current_a = alone.then_some(look.sum_a);
             let later = hinge.record.samples.last().is_none_or(|last| look.t_s > last.t_s);
             if later {
@@ -149,6 +151,7 @@ impl Batch {
             course.notice(look);
             course.rested = course.has_rested(look.t_s, reading_c, hinge.bounds.min_rest_s);
         }
+        self.driven = driven;
     }
 }
 

@@ -77,6 +77,7 @@ impl Sampler {
         channels: &[u16],
     ) -> Result<BTreeMap<u16, Look>, RequestError> {
         let mut looks = BTreeMap::new();
+        let mut first_sum_a = None;
         let mut sorted = channels.to_vec();
         sorted.sort_unstable();
         for channel in &sorted {
@@ -84,13 +85,16 @@ impl Sampler {
                 continue;
             }
             let readings = session.readings(*channel)?;
+            // With more channels than fit one answer, heaters go on and off in between: all that are on count for the first sum,
+            // or were on at the look before.
+            let sum_a = *first_sum_a.get_or_insert(f64::from(readings.current.0) / 1e3);
             for (channel, reading) in (readings.first..).zip(&readings.channels) {
                 let look = Look {
                     t_s: self.at_s(readings.at),
                     reading_c: reading.temperature.map(|temperature| f64::from(temperature.0) / 100.0),
                     duty: f64::from(reading.duty) / 1e3,
                     supply_v: f64::from(readings.supply.0) / 1e3,
-                    sum_a: f64::from(readings.current.0) / 1e3,
+                    sum_a,
                 };
                 looks.insert(channel, look);
             }
