@@ -160,7 +160,7 @@ fn earlier(arguments: &Arguments, files: &Files) -> Result<Option<Measured>, Fai
     let bytes = match std::fs::read(&files.records) {
         Ok(bytes) => bytes,
         Err(error) if arguments.resume => {
-            return Err(anyhow!(error).context(format!("{name}: cannot be read"))).map_err(Failure::BadInput);
+            return Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read"))));
         }
         Err(_) => return Ok(None),
     };
@@ -184,9 +184,7 @@ fn known(path: &Path, rig: &Rig) -> Result<Option<zygote_deployment::Calibration
             zygote_deployment::Calibration::read(&text, &rig.id).context(name).map(Some).or_bad_input()
         }
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => {
-            Err(anyhow!(error).context(format!("{name}: cannot be read"))).map_err(Failure::BadInput)
-        }
+        Err(error) => Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read")))),
     }
 }
 
@@ -207,7 +205,7 @@ fn measure<T: Transport>(
         let name = files.records.display().to_string();
         earlier.resume(&rig.id, &info, &mut hinges).context(name).or_bad_input()?;
     }
-    let unique_id: String = info.identity.unique_id.iter().map(|byte| format!("{byte:02x}")).collect();
+    let unique_id = calibrate::chip_id(&info);
     let fresh = || zygote_deployment::Calibration::new(&rig.id, &info.identity.board, &unique_id);
     let mut result = known.unwrap_or_else(fresh);
     // A file of another board is refused before anything is heated.

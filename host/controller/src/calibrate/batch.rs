@@ -34,6 +34,7 @@ struct Course {
 
 /// A time without power.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "the suffix is their unit")]
 struct Off {
     from_s: f64,
     /// The first sample without power.

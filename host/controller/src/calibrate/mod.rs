@@ -17,7 +17,7 @@ mod sampler;
 mod thermistors;
 
 pub use hinge::{Ending, Hinge};
-pub use records::{Measured, RecordsError};
+pub use records::{Measured, RecordsError, chip_id};
 pub use thermistors::ThermistorError;
 
 use crate::deploy::{make_ready, start, upload};

@@ -2,6 +2,7 @@
 
 use super::hinge::{Ending, Hinge};
 use serde::{Deserialize, Serialize};
+use std::fmt::Write;
 use zygote_calibration::{Drive, Purpose, Record, RecordError, Sample};
 use zygote_protocol::HelloReply;
 
@@ -99,11 +100,20 @@ pub enum RecordsError {
     },
 }
 
+/// The chip's unique id as files and people write it.
+pub fn chip_id(board: &HelloReply) -> String {
+    board.identity.unique_id.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
 impl Measured {
     /// What these hinges have, on the rig of this name at this board.
     pub fn new(rig: &str, board: &HelloReply, hinges: &[Hinge]) -> Self {
         let identity = &board.identity;
-        let unique_id = identity.unique_id.iter().map(|byte| format!("{byte:02x}")).collect();
+        let unique_id = chip_id(board);
         Self {
             version: VERSION,
             rig: rig.to_owned(),
