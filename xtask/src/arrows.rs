@@ -16,10 +16,12 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-emulator", &["zygote-core", "zygote-protocol", "zygote-sim"]),
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
-    ("zygote-controller", &["zygote-protocol", "zygote-deployment"]),
+    ("zygote-calibration", &["zygote-core", "zygote-sim"]),
+    ("zygote-controller", &["zygote-calibration", "zygote-protocol", "zygote-deployment"]),
     (
         "zygote-rehearsal",
         &[
+            "zygote-calibration",
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
@@ -32,6 +34,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "zygote-cli",
         &[
+            "zygote-calibration",
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",

@@ -64,6 +64,7 @@ fn main() -> ExitCode {
         match (verb.as_str(), name.as_str()) {
             ("bench", "stacking") => return told(bench::stacking::run(options)),
             ("bench", "deployment") => return told(bench::deployment::run(options)),
+            ("bench", "calibration") => return told(bench::calibration::run(options)),
             ("bench", "motion") => return told(bench::motion::run(options)),
             _ => {}
         }
@@ -98,7 +99,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  hil [OPTION ..]\n            the serial suite; OPTIONs go to pytest: --target emulator, --level smoke\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  bench calibration [--hinges N] [--broken N] [--seed S] [--wide] [--verbose]\n            how true calibrations are, of sound hinges and broken ones\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  hil [OPTION ..]\n            the serial suite; OPTIONs go to pytest: --target emulator, --level smoke\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

@@ -2,6 +2,9 @@
 
 mod alternatives;
 mod assembly;
+mod calibrate;
+mod calibration_report;
+mod calibration_table;
 mod check;
 mod checked_order;
 mod deploy;

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, check, deploy, explain, export, flash, fold_back, hil, link, net, picture, plan,
-    reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
+    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net,
+    picture, plan, reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -42,6 +42,8 @@ pub(crate) enum Verb {
     Deploy(deploy::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
+    /// Measure shape-memory hinges: what heats them, how fast, and where they open
+    Calibrate(calibrate::Arguments),
     /// Measure the line to a board
     Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
@@ -68,6 +70,7 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Calibrate(arguments) => calibrate::run(&arguments),
             Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),
             Self::Flash(arguments) => flash::run(&arguments),

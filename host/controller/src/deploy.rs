@@ -142,7 +142,7 @@ pub fn deploy<T: Transport>(
     Ok(report)
 }
 
-fn make_ready<T: Transport>(session: &mut Session<T>, clear: bool) -> Result<(), DeployError> {
+pub(crate) fn make_ready<T: Transport>(session: &mut Session<T>, clear: bool) -> Result<(), DeployError> {
     let status = session.status()?;
     match status.state {
         State::Idle | State::Loaded | State::Finished => Ok(()),
@@ -153,7 +153,7 @@ fn make_ready<T: Transport>(session: &mut Session<T>, clear: bool) -> Result<(),
 }
 
 /// Sends the steps without waiting for each answer, then looks at the answers.
-fn upload<T: Transport>(
+pub(crate) fn upload<T: Transport>(
     session: &mut Session<T>,
     run: u32,
     rig: &RigId,
@@ -176,7 +176,7 @@ fn upload<T: Transport>(
     session.request(Command::Commit).map(|_| ())
 }
 
-fn start<T: Transport>(
+pub(crate) fn start<T: Transport>(
     session: &mut Session<T>,
     run: u32,
     rig: RigId,

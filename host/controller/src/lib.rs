@@ -4,10 +4,12 @@
 //!   Schedule --program--> steps --Session--> link --Transport--> MCU (serial port, simulator)
 //!                                   |
 //!                                   +--> deploy --> Progress (for a display), EventLog, RunReport
+//!                                   +--> calibrate --> records of hinges, which `zygote_calibration` fits
 //! ```
 //!
 //! The MCU executes a run by itself; what stands here carries the program there and brings the news back.
 
+pub mod calibrate;
 mod clock;
 mod connect;
 mod deploy;

@@ -13,6 +13,7 @@
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
 
+mod calibration;
 pub mod dense;
 mod heating;
 mod kinematics;
@@ -29,6 +30,9 @@ mod testing;
 mod tolerance;
 mod tree;
 
+pub use calibration::{
+    Calibrated, CalibratedHinge, Calibration, CalibrationError, CalibrationVerdict, Known,
+};
 pub use kinematics::Kinematics;
 pub use order::{Order, WaitError};
 pub use rig::*;

@@ -63,6 +63,22 @@ pub fn emulated(
     Ok(EmulatedBoard::new(image, &plant(rig, schedule)?, seed)?)
 }
 
+/// The board of a rig's node with closed hinges of the physics that the rig's `[sim]` tells: nothing is deployed, they are measured.
+///
+/// # Errors
+/// [`BoardError`].
+pub fn bench(rig: &Rig, fittings: &[Fitting], boot: u32) -> Result<Board, BoardError> {
+    let mut plant = plant(rig, None)?;
+    for (hinge, fitting) in fittings.iter().enumerate() {
+        if let (Drive::Sma(_), Some(place)) =
+            (fitting.drive, plant.heaters.get_mut(usize::from(fitting.channel)))
+        {
+            *place = sma(rig.sim.sma_plant(hinge), 0.0, NO_HINGE_DEG);
+        }
+    }
+    Ok(Board::new(&plant, channels(rig)?, boot)?)
+}
+
 /// The physics behind the board of [`board`].
 ///
 /// # Errors

@@ -20,7 +20,7 @@ mod transport;
 mod wiretap;
 mod witness;
 
-pub use board::{BoardError, board, channels, emulated, plant};
+pub use board::{BoardError, bench, board, channels, emulated, plant};
 pub use cause::{Cause, Way, What, When};
 pub use judge::{Breach, Excuses, judge, margin_k};
 pub use run::{Ending, Rehearsed, Trial};

@@ -1,0 +1,275 @@
+//! `zygote calibrate`: measures the shape-memory hinges of a rig, at a board or on the simulator, and writes what they are like.
+
+use crate::calibration_table::{essential, hinge_of, table};
+use crate::failure::{Failure, OrFail};
+use crate::output::{say, write_file};
+use crate::paced_line::PacedLine;
+use crate::{calibration_report, identity, input, interrupt};
+use anyhow::{Context, anyhow};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use zygote_calibration::Fit;
+use zygote_controller::calibrate::{self, Calibration, Hinge, Measured, Progress};
+use zygote_controller::{SerialTransport, Session, Transport};
+use zygote_deployment::{CalibratedHinge, CalibrationVerdict, Drive, Fitting, Rig};
+use zygote_protocol::Millis;
+
+/// How long an answer to the hello is waited for.
+const HELLO_PATIENCE: Millis = Millis(2_000);
+/// Session, first run and boot of the simulator, so that every run is the same.
+const SIMULATED: u32 = 1;
+
+/// Arguments of `zygote calibrate`.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The rig
+    #[arg(long, value_name = "RIG.toml")]
+    rig: PathBuf,
+    #[command(flatten)]
+    target: Target,
+    #[command(flatten)]
+    which: Which,
+    /// The plan whose hinges are on the rig; without it every heater is taken for a hinge
+    #[arg(long, value_name = "PLAN.fold")]
+    plan: Option<PathBuf>,
+    /// What is known of the hinges [default: calibration.toml beside the rig file]
+    #[arg(short, long, value_name = "FILE.toml")]
+    output: Option<PathBuf>,
+    /// Go on with a calibration that was interrupted
+    #[arg(long, conflicts_with = "restart")]
+    resume: bool,
+    /// Forget a calibration that was interrupted
+    #[arg(long)]
+    restart: bool,
+    /// Leave the safe state of an earlier fault or stop: you have looked at the rig
+    #[arg(long)]
+    clear: bool,
+}
+
+/// Where the rig is.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Target {
+    /// Serial port of the board
+    #[arg(long, value_name = "DEV")]
+    port: Option<String>,
+    /// Simulated board, in virtual time
+    #[arg(long)]
+    sim: bool,
+}
+
+/// Which hinges.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Which {
+    /// A hinge of this number; may be given more than once
+    #[arg(long, value_name = "HINGE")]
+    hinge: Vec<usize>,
+    /// Every shape-memory hinge, as many at once as the supply allows
+    #[arg(long)]
+    all: bool,
+}
+
+/// The files of a calibration.
+struct Files {
+    result: PathBuf,
+    /// All that was measured.
+    records: PathBuf,
+    /// For people.
+    report: PathBuf,
+}
+
+/// Measures; succeeds only when every hinge is calibrated.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let rig = input::rig(&arguments.rig)?;
+    let fittings = fittings(arguments, &rig)?;
+    let result = arguments.output.clone().unwrap_or_else(|| arguments.rig.with_file_name("calibration.toml"));
+    let files = Files {
+        records: result.with_extension("records.json"),
+        report: result.with_extension("html"),
+        result,
+    };
+    let earlier = earlier(arguments, &files)?;
+    // Before anything is heated: a file of another rig stays as it is.
+    let known = known(&files.result, &rig)?;
+    if let Some(device) = &arguments.target.port {
+        let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
+        measure(arguments, transport, identity::fresh(), &rig, &fittings, &files, (earlier, known))
+    } else {
+        let board = zygote_rehearsal::bench(&rig, &fittings, SIMULATED).or_bad_input()?;
+        let line = PacedLine::new(board, rig.link.baud);
+        measure(arguments, line, SIMULATED, &rig, &fittings, &files, (earlier, known))
+    }
+}
+
+/// What drives every hinge.
+fn fittings(arguments: &Arguments, rig: &Rig) -> Result<Vec<Fitting>, Failure> {
+    if let [_, _, ..] = rig.nodes.as_slice() {
+        let nodes = rig.nodes.len();
+        return Err(Failure::BadInput(anyhow!("{}: expected a rig of one node, found {nodes}", rig.id)));
+    }
+    if let Some(path) = &arguments.plan {
+        return rig.fit(input::plan(path)?.hinges.len()).or_bad_input();
+    }
+    let channels =
+        rig.nodes.iter().map(|node| node.heaters + node.servos + node.springs).map(usize::from).sum();
+    // As many hinges as the rig can have.
+    let most = (1..=channels).rev().find_map(|hinges| rig.fit(hinges).ok());
+    most.map_or_else(|| rig.fit(channels).or_bad_input(), Ok)
+}
+
+/// The hinges asked for.
+fn hinges<T: Transport>(
+    arguments: &Arguments,
+    session: &Session<T>,
+    fittings: &[Fitting],
+) -> Result<Vec<Hinge>, Failure> {
+    let info = session.info();
+    let hinge = |number: usize| match fittings.get(number) {
+        Some(Fitting { channel, drive: Drive::Sma(_), .. }) if *channel >= info.channels.heaters => {
+            let (board, heaters) = (&info.identity.board, info.channels.heaters);
+            Err(anyhow!("hinge {number}: heater channel {channel}, the {board} has {heaters} of them"))
+        }
+        Some(Fitting { channel, drive: Drive::Sma(settings), .. }) => {
+            Ok(Hinge::new(number, *channel, *settings, &info.ceiling))
+        }
+        Some(Fitting { drive, .. }) => {
+            Err(anyhow!("--hinge {number}: expected a shape-memory hinge, found a {}", drive.kind().name()))
+        }
+        None => Err(anyhow!("--hinge {number}: expected a hinge of the rig, 0 to {}", fittings.len() - 1)),
+    };
+    let is_sma = |number: &usize| matches!(fittings.get(*number).map(|fit| fit.drive), Some(Drive::Sma(_)));
+    let mut numbers: Vec<usize> = if arguments.which.all {
+        (0..fittings.len()).filter(is_sma).collect()
+    } else {
+        arguments.which.hinge.clone()
+    };
+    numbers.sort_unstable();
+    numbers.dedup();
+    if numbers.is_empty() {
+        return Err(Failure::BadInput(anyhow!("--all: the rig has no shape-memory hinge")));
+    }
+    numbers.into_iter().map(hinge).collect::<Result<_, _>>().or_bad_input()
+}
+
+/// What an interrupted calibration measured, where it is gone on with.
+fn earlier(arguments: &Arguments, files: &Files) -> Result<Option<Measured>, Failure> {
+    let name = files.records.display().to_string();
+    let bytes = match std::fs::read(&files.records) {
+        Ok(bytes) => bytes,
+        Err(error) if arguments.resume => {
+            return Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read"))));
+        }
+        Err(_) => return Ok(None),
+    };
+    let measured = Measured::from_json(&bytes).context(name.clone());
+    if arguments.resume {
+        return measured.map(Some).or_bad_input();
+    }
+    match measured {
+        Ok(measured) if !measured.complete && !arguments.restart => Err(Failure::BadInput(anyhow!(
+            "{name}: holds a calibration that was interrupted: --resume goes on with it, --restart forgets it"
+        ))),
+        Ok(_) | Err(_) => Ok(None),
+    }
+}
+
+/// What the result's file says already.
+fn known(path: &Path, rig: &Rig) -> Result<Option<zygote_deployment::Calibration>, Failure> {
+    let name = path.display().to_string();
+    match std::fs::read_to_string(path) {
+        Ok(text) => {
+            zygote_deployment::Calibration::read(&text, &rig.id).context(name).map(Some).or_bad_input()
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read")))),
+    }
+}
+
+fn measure<T: Transport>(
+    arguments: &Arguments,
+    transport: T,
+    number: u32,
+    rig: &Rig,
+    fittings: &[Fitting],
+    files: &Files,
+    (earlier, known): (Option<Measured>, Option<zygote_deployment::Calibration>),
+) -> Result<(), Failure> {
+    let interrupted = interrupt::flag()?;
+    let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
+    let info = session.info().clone();
+    let mut hinges = hinges(arguments, &session, fittings)?;
+    if let Some(earlier) = earlier {
+        let name = files.records.display().to_string();
+        earlier.resume(&rig.id, &info, &mut hinges).context(name).or_bad_input()?;
+    }
+    let unique_id = calibrate::chip_id(&info);
+    let fresh = || zygote_deployment::Calibration::new(&rig.id, &info.identity.board, &unique_id);
+    let mut result = known.unwrap_or_else(fresh);
+    // A file of another board is refused before anything is heated.
+    result.take_in(fresh()).context(files.result.display().to_string()).or_bad_input()?;
+    let calibration = Calibration {
+        rig,
+        run: number,
+        clear: arguments.clear,
+        interrupted: &|| interrupted.load(Ordering::Relaxed),
+    };
+    let bar = progress_bar(hinges.len());
+    let mut keep = |hinges: &[Hinge]| {
+        let json =
+            serde_json::to_vec(&Measured::new(&rig.id, &info, hinges)).map_err(|error| error.to_string())?;
+        write_file(&files.records, &json).map_err(|failure| match failure {
+            Failure::BadInput(error) | Failure::Failed(error) => format!("{error:#}"),
+        })
+    };
+    let outcome = calibrate::calibrate(&mut session, &calibration, &mut hinges, &mut keep, &mut |progress| {
+        show(&bar, progress);
+    });
+    bar.finish_and_clear();
+    outcome.or_failed()?;
+    let firmware = format!("{} {}", info.identity.firmware, info.identity.git);
+    let date = identity::now_utc();
+    let mut fits: Vec<Option<Fit>> = Vec::new();
+    let mut fresh = fresh();
+    for hinge in &hinges {
+        let fit = hinge.fit().or_failed()?;
+        fresh.hinges.push(hinge_of(hinge, &fit, &date, &firmware));
+        fits.push(Some(fit));
+    }
+    let calibrated = fresh.hinges.clone();
+    result.take_in(fresh).or_failed()?;
+    write_file(&files.result, result.text().or_failed()?.as_bytes())?;
+    let page = calibration_report::page(rig, &date, &hinges, &fits, &calibrated);
+    write_file(&files.report, page.as_bytes())?;
+    say(table(&calibrated));
+    say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
+    judge(&calibrated)
+}
+
+fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {
+    let bad: Vec<String> = calibrated
+        .iter()
+        .filter(|hinge| hinge.verdict != CalibrationVerdict::Calibrated)
+        .map(|hinge| {
+            let why = hinge.why.clone().or_else(|| essential(hinge)).unwrap_or_default();
+            format!("hinge {}: {}: {why}", hinge.hinge, hinge.verdict.name())
+        })
+        .collect();
+    if bad.is_empty() { Ok(()) } else { Err(Failure::Failed(anyhow!("{}", bad.join("\n       ")))) }
+}
+
+fn progress_bar(hinges: usize) -> ProgressBar {
+    let bar = ProgressBar::new(u64::try_from(hinges).unwrap_or(u64::MAX));
+    // The template is a constant of ours; if it were wrong, the plain bar would do.
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} hinges, {elapsed}  {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn show(bar: &ProgressBar, progress: &Progress) {
+    bar.set_position(u64::try_from(progress.ended).unwrap_or(u64::MAX));
+    bar.set_message(progress.doing.clone());
+}

@@ -1,0 +1,124 @@
+//! `zygote calibrate --sim` as a user meets it: what is found is what the simulated hinges are like, and what can't be
+//! calibrated is told with why.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod scratch;
+
+use scratch::{Run, Scratch};
+use serde_json::Value;
+
+/// Two hinges that differ from what the rig file says, and from each other.
+const RIG: &str = r#"
+version = 1
+
+[rig]
+id = "bench"
+
+[supply]
+voltage = "5 V"
+limit = "2 A"
+resistance = "50 mohm"
+
+[[node]]
+name = "simulated"
+heaters = 2
+
+[sim]
+seed = 4
+
+[[sim.hinge]]
+hinge = 0
+sma = { heater_resistance = "27 ohm", austenite_start = "65 degC", austenite_finish = "76 degC", martensite_start = "50 degC", martensite_finish = "39 degC" }
+
+[[sim.hinge]]
+hinge = 1
+sma = { heater_resistance = "22 ohm", convection = "55 W/m2K" }
+"#;
+
+fn calibrate(place: &Scratch, rig: &str, more: &[&str]) -> Run {
+    place.write("rig.toml", rig);
+    place.zygote(&[&["calibrate", "--rig", "rig.toml", "--sim"], more].concat())
+}
+
+/// A number of the calibration file, the first of its value.
+fn value(text: &str, hinge: usize, key: &str) -> f64 {
+    let part = text.split("[[hinge]]").nth(hinge + 1).unwrap();
+    let entry = part.split(&format!("[hinge.values.{key}]")).nth(1).unwrap();
+    let line = entry.lines().find(|line| line.starts_with("value")).unwrap();
+    line.split('"').nth(1).unwrap().split(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn two_hinges_are_calibrated_side_by_side_and_what_is_found_is_the_truth() {
+    let place = Scratch::new("calibrates_two");
+    let run = calibrate(&place, RIG, &["--all"]);
+    assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    let text = place.read("calibration.toml");
+    for (hinge, key, truth, within) in [
+        (0, "heater_resistance", 27.0, 27.0 * 0.03),
+        (1, "heater_resistance", 22.0, 22.0 * 0.03),
+        (0, "austenite_start", 65.0, 2.0),
+        (0, "austenite_finish", 76.0, 2.0),
+        (1, "austenite_start", 68.0, 2.0),
+        (1, "austenite_finish", 78.0, 2.0),
+    ] {
+        let found = value(&text, hinge, key);
+        assert!((found - truth).abs() <= within, "hinge {hinge}: {key} {found} for {truth}\n{text}");
+    }
+    assert!(value(&text, 1, "thermal_resistance") < value(&text, 0, "thermal_resistance"), "{text}");
+    let records: Value = serde_json::from_slice(&place.bytes("calibration.records.json")).unwrap();
+    assert_eq!((records["rig"].as_str(), records["complete"].as_bool()), (Some("bench"), Some(true)));
+    assert!(place.read("calibration.html").matches("<svg").count() == 2);
+    // One of them again, at a rig that has changed its name.
+    let renamed = RIG.replace("\"bench\"", "\"other\"");
+    let run = calibrate(&place, &renamed, &["--hinge", "1"]);
+    assert_eq!(run.code, 2, "{}", run.output);
+    assert!(run.errors.contains("a calibration of rig \"bench\", expected \"other\""), "{}", run.errors);
+    assert_eq!(place.read("calibration.toml"), text, "it stays as it was");
+}
+
+#[test]
+fn a_rig_that_is_too_warm_or_too_weak_is_told_and_nothing_is_called_calibrated() {
+    let place = Scratch::new("calibrates_nothing");
+    let cases = [
+        (RIG.replace("[sim]", "[sim]\nambient = \"60 degC\""), "expected a room's"),
+        (RIG.replace("27 ohm", "58 ohm"), "hinge 0: incomplete: no austenite"),
+    ];
+    for (rig, message) in cases {
+        let run = calibrate(&place, &rig, &["--hinge", "0", "--restart"]);
+        assert_eq!(run.code, 1, "{}{}", run.output, run.errors);
+        assert!(run.errors.contains(message), "{message} isn't in {}", run.errors);
+        assert!(!run.output.contains(" calibrated"), "{}", run.output);
+    }
+}
+
+#[test]
+fn what_is_no_hinge_of_the_rig_or_no_record_of_it_is_refused() {
+    let place = Scratch::new("calibrates_no_such");
+    for (arguments, message) in [
+        (&["--hinge", "2"][..], "--hinge 2: expected a hinge of the rig, 0 to 1"),
+        (&["--all", "--resume"], "calibration.records.json: cannot be read"),
+        (&["--all", "--plan", "none.fold"], "none.fold: cannot be read"),
+    ] {
+        let run = calibrate(&place, RIG, arguments);
+        assert_eq!((run.code, run.errors.contains(message)), (2, true), "{}", run.errors);
+    }
+    let records = |rig: &str, version: u32, complete: bool| {
+        format!(
+            "{{\"version\":{version},\"rig\":\"{rig}\",\"board\":\"b\",\"unique_id\":\"00\",\"firmware\":\"f\",\
+             \"complete\":{complete},\"hinges\":[]}}"
+        )
+    };
+    for (text, arguments, message) in [
+        (records("bench", 1, false), &["--all"][..], "holds a calibration that was interrupted: --resume"),
+        (records("other", 1, false), &["--all", "--resume"], "these records are of another rig"),
+        (records("bench", 1, false), &["--all", "--resume"], "these records are of another board"),
+        (records("bench", 2, false), &["--all", "--resume"], "expected version 1, found 2"),
+        ("{}".to_owned(), &["--all", "--resume"], "no records of a calibration"),
+    ] {
+        place.write("calibration.records.json", &text);
+        let run = calibrate(&place, RIG, arguments);
+        assert_eq!((run.code, run.errors.contains(message)), (2, true), "{message}: {}", run.errors);
+        assert_eq!(place.read("calibration.records.json"), text, "nothing was measured");
+    }
+}
