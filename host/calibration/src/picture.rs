@@ -109,7 +109,7 @@ fn drives(svg: &mut String, record: &Record, times: &Scale) -> core::fmt::Result
 
 fn axes(svg: &mut String, times: &Scale, values: &Scale, unit: &str) -> core::fmt::Result {
     let (bottom, top) = values.pixels;
-    let digits = if values.values.1 - values.values.0 > 10.0 { 0 } else { 1 };
+    let digits = usize::from(values.values.1 - values.values.0 <= 10.0);
     for tick in values.ticks() {
         let y = values.at(tick);
         writeln!(
