@@ -82,7 +82,9 @@ pub fn picture(record: &Record, fit: &Fit) -> String {
 }
 
 fn drives(svg: &mut String, record: &Record, times: &Scale) -> core::fmt::Result {
-    for drive in &record.drives {
+    for (index, drive) in record.drives.iter().enumerate() {
+        // The first two are near to each other.
+        let y = if index % 2 == 0 { 362 } else { 374 };
         let (x, end) = (times.at(drive.from_s), times.at(drive.until_s));
         let name = match drive.purpose {
             Purpose::Probe => "probe",
@@ -94,7 +96,7 @@ fn drives(svg: &mut String, record: &Record, times: &Scale) -> core::fmt::Result
         writeln!(
             svg,
             "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#fd9\" fill-opacity=\"{:.2}\"/>\
-             <text x=\"{x:.1}\" y=\"364\" fill=\"#a70\">{name}, {:.1} %</text>",
+             <text x=\"{x:.1}\" y=\"{y}\" fill=\"#a70\">{name}, {:.1} %</text>",
             CURVES.1,
             end - x,
             CURVES.0 - CURVES.1,
@@ -107,14 +109,14 @@ fn drives(svg: &mut String, record: &Record, times: &Scale) -> core::fmt::Result
 
 fn axes(svg: &mut String, times: &Scale, values: &Scale, unit: &str) -> core::fmt::Result {
     let (bottom, top) = values.pixels;
+    let digits = usize::from(values.values.1 - values.values.0 <= 10.0);
     for tick in values.ticks() {
         let y = values.at(tick);
         writeln!(
             svg,
             "<line x1=\"{LEFT}\" x2=\"{RIGHT}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>\
-             <text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{:.4}</text>",
-            y + 4.0,
-            tick
+             <text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{tick:.digits$}</text>",
+            y + 4.0
         )?;
     }
     for tick in times.ticks() {
