@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::{
     alternatives, assembly, check, deploy, explain, export, flash, fold_back, link, net, picture, plan,
-    reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
+    reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -42,6 +42,10 @@ pub(crate) enum Verb {
     Deploy(deploy::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
+    /// Tell a recorded run again: what happened when, and how it ended
+    Replay(replay::Arguments),
+    /// Write a recorded run as one HTML page with plots
+    Report(report::Arguments),
     /// Measure the line to a board
     Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
@@ -72,6 +76,8 @@ impl Verb {
             Self::Settings(arguments) => settings::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
+            Self::Replay(arguments) => replay::run(&arguments),
+            Self::Report(arguments) => report::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
             Self::Fold(arguments) => fold_back::run(&arguments),
             Self::Assembly(arguments) => assembly::run(&arguments),

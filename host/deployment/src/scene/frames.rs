@@ -129,8 +129,9 @@ mod tests {
         for plan in real_plans() {
             let frames = Frames::new(&plan).expect("a tree");
             let kinematics = Kinematics::new(&plan).expect("a tree");
-            let fractions: Vec<_> =
-                (0..plan.hinges.len()).map(|hinge| f64::from(u8::try_from(hinge % 5).unwrap()) / 4.0).collect();
+            let fractions: Vec<_> = (0..plan.hinges.len())
+                .map(|hinge| f64::from(u8::try_from(hinge % 5).unwrap()) / 4.0)
+                .collect();
             let (root, pose) = frames.root();
             let mut space_from = vec![None; frames.panels()];
             space_from[root] = Some(affine(pose) * frames.from_hinge[root]);
@@ -153,9 +154,9 @@ mod tests {
         plan.thickness = 0.0;
         let frames = Frames::new(&plan).expect("a tree");
         for hinge in 0..plan.hinges.len() {
-            let [closed, open] = [0.0, 1.0].map(|fraction| frames.link(hinge, fraction).expect("a hinge").pose);
-            let apart =
-                DVec3::from_array(closed.translation).distance(DVec3::from_array(open.translation));
+            let [closed, open] =
+                [0.0, 1.0].map(|fraction| frames.link(hinge, fraction).expect("a hinge").pose);
+            let apart = DVec3::from_array(closed.translation).distance(DVec3::from_array(open.translation));
             assert!(apart < SAME, "hinge {hinge}");
         }
         assert!(frames.link(plan.hinges.len(), 0.0).is_none());
