@@ -15,9 +15,10 @@ class Deploy:
     def __init__(self, zygote: Path, program: Program, device: str, folder: Path, clear: bool = True):
         self.log = folder / "events.jsonl"
         self.report_file = folder / "report.json"
+        self.recording = folder / "run.mcap"
         arguments: list[str | Path] = [zygote, "deploy", program.plan, "--rig", program.rig_file, "--port", device]
         arguments += ["--clear"] if clear else []
-        arguments += ["--log", self.log, "--report", self.report_file]
+        arguments += ["--log", self.log, "--report", self.report_file, "--record", self.recording]
         self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def wait_for_opened(self, count: int, patience: float = 30.0) -> None:
