@@ -18,7 +18,7 @@ const SPACE: &str = "zygote";
 /// A hinge is drawn anew when it has turned so far, degrees.
 const LEAST_TURN_DEG: f64 = 0.5;
 /// Its colour changes in steps so wide, °C.
-const COLOUR_STEP_C: f64 = 5.0;
+const COLOUR_STEP_C: f64 = 10.0;
 /// Temperatures between which a hinge's colour goes from blue to red, °C.
 const COLD_C: f64 = 20.0;
 const HOT_C: f64 = 140.0;

@@ -10,15 +10,15 @@ const TIMES: [f64; 18] = [
 pub(super) fn times(end: f64, most: f64) -> Vec<(f64, String)> {
     let longest = TIMES[TIMES.len() - 1];
     let step = TIMES.into_iter().find(|step| end / step <= most).unwrap_or(longest);
-    multiples(0.0, end, step).into_iter().map(|at| (at, clock(at, step))).collect()
+    multiples(0.0, end, step).into_iter().map(|at| (at, clock(at, step, end))).collect()
 }
 
-/// Seconds up to two minutes, then minutes and seconds.
-fn clock(at: f64, step: f64) -> String {
+/// Seconds where all is over within two minutes, else minutes and seconds.
+fn clock(at: f64, step: f64, end: f64) -> String {
     if step < 1.0 {
         return format!("{at:.1} s");
     }
-    if at < 120.0 && step < 60.0 {
+    if end < 120.0 {
         return format!("{at:.0} s");
     }
     let (minutes, seconds) = ((at / 60.0).floor(), at % 60.0);
@@ -61,7 +61,8 @@ mod tests {
             assert!((2..=11).contains(&marks.len()), "{end}: {marks:?}");
             assert!(marks.iter().all(|(at, _)| *at <= end * 1.001), "{end}: {marks:?}");
         }
-        assert_eq!(times(300.0, 10.0)[3].1, "90 s");
+        assert_eq!(times(100.0, 10.0)[3].1, "30 s");
+        assert_eq!(times(300.0, 10.0)[3].1, "1:30");
         assert_eq!(times(900.0, 10.0)[3].1, "6:00");
     }
 

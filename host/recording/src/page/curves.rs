@@ -22,6 +22,7 @@ pub(super) fn sections(page: &mut Html, run: &Run<'_>) {
         class: "amps",
         name: "measured current".to_owned(),
         points: looks(run, |look| look.current_a),
+        lowest: false,
     };
     page.add("<section><h2>Current</h2>");
     Plot {
@@ -36,8 +37,12 @@ pub(super) fn sections(page: &mut Html, run: &Run<'_>) {
     .draw(page);
     page.add("</section>\n<section><h2>Supply</h2>");
     let nominal = run.recording.rig.supply.voltage.0;
-    let supply =
-        Curve { class: "volts", name: "supply voltage".to_owned(), points: looks(run, |look| look.supply_v) };
+    let supply = Curve {
+        class: "volts",
+        name: "supply voltage".to_owned(),
+        points: looks(run, |look| look.supply_v),
+        lowest: true,
+    };
     Plot {
         about: "supply voltage over time".to_owned(),
         unit: "V",
@@ -82,12 +87,11 @@ fn temperatures(page: &mut Html, run: &Run<'_>, end_s: f64, faults: &[f64]) {
         .into_iter()
         .map(|(hinge, points)| {
             let class = if faulty.contains(&hinge) { "hot bad" } else { "hot" };
-            Curve { class, name: format!("hinge {hinge}"), points }
+            Curve { class, name: format!("hinge {hinge}"), points, lowest: false }
         })
         .collect();
     // What went wrong is drawn over the others.
     curves.sort_by_key(|curve| curve.class);
-    curves.rotate_left(0);
     let sma = || {
         run.schedule.steps.iter().filter_map(|step| match step.motion {
             Motion::Sma(sma) => Some(sma),

@@ -4,7 +4,7 @@ use super::plot::{LEFT, WIDTH, fault_marks, time_axis, x};
 use super::{Html, escaped};
 use crate::run::Run;
 use zygote_controller::{HingeOutcome, HingeReport};
-use zygote_deployment::Step;
+use zygote_deployment::{Kind, Step};
 
 /// Rows are as high as fits about so many pixels, within bounds.
 const HEIGHT: f64 = 900.0;
@@ -12,6 +12,7 @@ const HIGHEST: f64 = 18.0;
 const LOWEST: f64 = 2.5;
 /// Lower rows have no label.
 const LABELLED: f64 = 8.5;
+const LARGEST_FONT: f64 = 11.5;
 const TOP: f64 = 8.0;
 const FLOOR: f64 = 26.0;
 
@@ -25,10 +26,20 @@ pub(super) fn section(page: &mut Html, run: &Run<'_>) {
     let row = (HEIGHT / rows.len() as f64).clamp(LOWEST, HIGHEST);
     let floor = TOP + row * rows.len() as f64;
     let end_s = run.end_s().max(seconds(run.schedule.makespan.0));
-    page.add(
-        "<section><h2>Schedule against the clock</h2><p class=\"key\"><i class=\"plan\"></i>planned <i class=\"sma\"></i>heated \
-         <i class=\"servo\"></i>turned <i class=\"spring\"></i>released <i class=\"cool\"></i>cooling <i class=\"bad\"></i>interrupted</p>",
-    );
+    page.add("<section><h2>Schedule against the clock</h2><p class=\"key\"><i class=\"plan\"></i>planned");
+    let any = |is: &dyn Fn(&HingeReport) -> bool| rows.iter().any(|(_, hinge)| is(hinge));
+    for (class, word, there) in [
+        ("sma", "heated", any(&|hinge| hinge.kind == Kind::Sma)),
+        ("servo", "turned", any(&|hinge| hinge.kind == Kind::Servo)),
+        ("spring", "released", any(&|hinge| hinge.kind == Kind::Spring)),
+        ("cool", "cooling", any(&|hinge| hinge.kind == Kind::Sma)),
+        ("bad", "interrupted", any(&|hinge| hinge.outcome == HingeOutcome::Interrupted)),
+    ] {
+        if there {
+            page.add(format_args!(" <i class=\"{class}\"></i>{word}"));
+        }
+    }
+    page.add("</p>");
     page.add(format_args!(
         "<svg viewBox=\"0 0 {WIDTH} {:.1}\" role=\"img\" aria-label=\"planned and true times of every hinge\">",
         floor + FLOOR
@@ -48,10 +59,11 @@ fn seconds(ms: u64) -> f64 {
 
 fn bars(page: &mut Html, step: &Step, hinge: &HingeReport, top: f64, row: f64, (ended_s, end_s): (f64, f64)) {
     if row >= LABELLED {
+        let font = row.min(LARGEST_FONT);
         page.add(format_args!(
-            "<text class=\"tick end\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+            "<text class=\"tick end\" style=\"font-size:{font:.1}px\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
             LEFT - 7.0,
-            top + row / 2.0 + 4.0,
+            top + row / 2.0 + font * 0.36,
             step.hinge
         ));
     }

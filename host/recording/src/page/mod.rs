@@ -30,8 +30,8 @@ pub fn page(recording: &Recording) -> String {
     tiles(&mut page, &run);
     faults(&mut page, &run);
     page.add(format_args!(
-        "<section class=\"next\"><h2>What to do next</h2><p>{}</p></section>\n",
-        escaped(run.next())
+        "<section class=\"next\"><h2>What to do next</h2><p>{}.</p></section>\n",
+        options_marked(&run.next())
     ));
     gantt::section(&mut page, &run);
     curves::sections(&mut page, &run);
@@ -72,6 +72,19 @@ fn escaped(text: impl Display) -> String {
     escaped
 }
 
+/// A sentence with its command-line options in one piece each.
+fn options_marked(text: &str) -> String {
+    let word = |word: &str| {
+        if word.starts_with("--") { format!("<code>{}</code>", escaped(word)) } else { escaped(word) }
+    };
+    capitalised(&text.split(' ').map(word).collect::<Vec<_>>().join(" "))
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
 fn about<'a>(recording: &'a Recording, key: &str) -> &'a str {
     recording.job.get(key).map_or("", String::as_str)
 }
@@ -95,7 +108,7 @@ fn head(page: &mut Html, run: &Run<'_>, title: &str) {
         identity("board"),
         identity("firmware"),
         identity("line"),
-        escaped(about(recording, "started")),
+        escaped(capitalised(about(recording, "started"))),
     ));
     if let Some(scenario) = recording.job.get("scenario") {
         page.add(format_args!(

@@ -21,6 +21,8 @@ pub(super) struct Curve {
     /// What is shown when somebody points at it.
     pub(super) name: String,
     pub(super) points: Vec<(f64, f64)>,
+    /// Where many points share a column, the lowest of them is the one that matters.
+    pub(super) lowest: bool,
 }
 
 /// A value that stays.
@@ -91,7 +93,7 @@ impl Plot {
         }
         page.add(format_args!("<text class=\"tick\" x=\"2\" y=\"{:.1}\">{}</text>", TOP + 2.0, self.unit));
         for curve in &self.curves {
-            let path = self.path(&curve.points, y);
+            let path = self.path(curve, y);
             page.add(format_args!(
                 "<path class=\"curve {}\" d=\"{path}\"><title>{}</title></path>",
                 curve.class,
@@ -121,15 +123,15 @@ impl Plot {
         (low, high + 0.06 * (high - low))
     }
 
-    /// The highest point of each column, in pieces where nothing was measured between.
-    fn path(&self, points: &[(f64, f64)], y: impl Fn(f64) -> f64) -> String {
+    /// The highest or lowest point of each column, in pieces where nothing was measured between.
+    fn path(&self, curve: &Curve, y: impl Fn(f64) -> f64) -> String {
         let column = self.end_s.max(1e-3) / COLUMNS;
         let mut kept: Vec<(f64, f64)> = Vec::new();
         let mut begin = f64::NEG_INFINITY;
-        for (at, value) in points {
+        for (at, value) in &curve.points {
             match kept.last_mut() {
                 Some(last) if at - begin < column => {
-                    if *value > last.1 {
+                    if (*value > last.1) != curve.lowest {
                         *last = (*at, *value);
                     }
                 }
