@@ -6,6 +6,7 @@ import pytest
 
 from bench.fake_mcu import fake_mcu, silence
 from bench.host import Deploy
+from bench.recording import check_cut, check_whole
 from zygote_wire import postcard
 from zygote_wire.codes import Faulted
 from zygote_wire.frames import Frame, Kind
@@ -26,6 +27,7 @@ def test_the_host_deploys_and_ends_with_0(zygote, program, device, tmp_path):
     report = deploy.report()
     assert report["outcome"] == "deployed"
     assert {hinge["outcome"] for hinge in report["hinges"]} == {"opened"}
+    check_whole(deploy, program)
 
 
 @pytest.mark.parametrize("interrupt", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "terminate"])
@@ -58,6 +60,7 @@ def test_a_killed_host_loses_its_link_and_the_rig_is_off(zygote, program, device
     deploy.wait_for_opened(1)
     deploy.process.kill()
     deploy.process.communicate()
+    check_cut(deploy)
     port = Port(device, baud)
     # The rig's link timeout is 1 s; nothing is said before it is over.
     port.listen(1.3)
