@@ -11,7 +11,11 @@ from mcap.stream_reader import StreamReader
 from bench.host import Deploy
 from bench.program import Program
 
-SHOWN_BY_FOXGLOVE = {("foxglove.SceneUpdate", "/panels"), ("foxglove.FrameTransforms", "/frames"), ("foxglove.Log", "/log")}
+SHOWN_BY_FOXGLOVE = {
+    ("foxglove.SceneUpdate", "/panels"),
+    ("foxglove.FrameTransforms", "/frames"),
+    ("foxglove.Log", "/log"),
+}
 # A chunk is written once a second, and telemetry comes ten times a second.
 MOST_LOST_US = 1_200_000
 
