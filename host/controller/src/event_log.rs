@@ -169,6 +169,7 @@ struct Line<'a> {
 pub struct EventLog<'a> {
     sink: Box<dyn Write>,
     observer: Option<&'a mut dyn Observer>,
+    begun: bool,
     start: Option<Micros>,
     clock: Option<ClockFit>,
     error: Option<io::Error>,
@@ -177,7 +178,7 @@ pub struct EventLog<'a> {
 impl<'a> EventLog<'a> {
     /// A log into `sink`, flushed after every line.
     pub fn new(sink: impl Write + 'static) -> Self {
-        Self { sink: Box::new(sink), observer: None, start: None, clock: None, error: None }
+        Self { sink: Box::new(sink), observer: None, begun: false, start: None, clock: None, error: None }
     }
 
     /// With somebody who is told the same.
@@ -196,11 +197,15 @@ impl<'a> EventLog<'a> {
         let start = *self.start.get_or_insert(now);
         let at_host_us = self.clock.zip(record.mcu_us()).map(|(clock, mcu)| since_start(clock, mcu, start));
         let times = Times { host_us: now.since(start), at_host_us };
-        if let Some(observer) = &mut self.observer {
-            observer.observe(times, record);
-        }
         if self.error.is_none() {
             self.error = self.write(&Line { times, record }).err();
+            self.begun |= self.error.is_none();
+        }
+        // A run whose log can't be begun isn't started; it leaves no other trace either.
+        if self.begun
+            && let Some(observer) = &mut self.observer
+        {
+            observer.observe(times, record);
         }
     }
 
