@@ -16,7 +16,7 @@ SHOWN_BY_FOXGLOVE = {
     ("foxglove.FrameTransforms", "/frames"),
     ("foxglove.Log", "/log"),
 }
-# A chunk is written once a second, and telemetry comes ten times a second.
+# A chunk is written once a second, and telemetry comes ten times a second of a board that isn't slow.
 MOST_LOST_US = 1_200_000
 
 
@@ -58,7 +58,8 @@ def check_cut(deploy: Deploy) -> None:
     told = [line for line in log if line["kind"] != "telemetry"]
     saved = events(deploy.recording)
     assert saved and saved == told[: len(saved)]
-    assert all(log[-1]["host_us"] - line["host_us"] <= MOST_LOST_US for line in told[len(saved) :])
+    most_us = MOST_LOST_US * deploy.patience
+    assert all(log[-1]["host_us"] - line["host_us"] <= most_us for line in told[len(saved) :])
 
 
 def log_of(deploy: Deploy) -> list[dict[str, Any]]:
