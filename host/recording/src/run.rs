@@ -39,7 +39,7 @@ impl<'a> Run<'a> {
         let mut run = Self { recording, schedule, started_us, hinges: BTreeMap::new() };
         run.hinges = match &recording.report {
             Some(report) => report.hinges.iter().map(|hinge| (hinge.hinge, hinge.clone())).collect(),
-            None => run.from_events(),
+            None => run.told_by_events(),
         };
         run
     }
@@ -55,7 +55,7 @@ impl<'a> Run<'a> {
     }
 
     /// What became of each hinge as far as the events go: the report was never written.
-    fn from_events(&self) -> BTreeMap<usize, HingeReport> {
+    fn told_by_events(&self) -> BTreeMap<usize, HingeReport> {
         let whole = &self.recording.schedule;
         let open = |step: &Step| self.recording.open.contains(&step.hinge);
         let mut hinges: BTreeMap<_, _> = whole

@@ -29,21 +29,21 @@ const LINE: f64 = 0.06;
 /// A plate is at least so thick, panel lengths, so that it has sides.
 const LEAST_THICKNESS: f64 = 2e-3;
 
-/// A hinge's way.
+/// A hinge's way, in degrees of opening.
 #[derive(Debug, Clone, Copy)]
 struct Way {
-    zygote_deg: f64,
-    target_deg: f64,
+    zygote: f64,
+    target: f64,
     /// Where its step ends.
-    end_deg: f64,
+    end: f64,
     /// Where it is drawn.
-    drawn_deg: f64,
+    drawn: f64,
 }
 
 impl Way {
     fn fraction(self) -> f64 {
-        let way = self.target_deg - self.zygote_deg;
-        if way == 0.0 { 0.0 } else { (self.drawn_deg - self.zygote_deg) / way }
+        let way = self.target - self.zygote;
+        if way == 0.0 { 0.0 } else { (self.drawn - self.zygote) / way }
     }
 }
 
@@ -62,19 +62,19 @@ impl Scene {
             .hinges
             .iter()
             .map(|hinge| {
-                let zygote_deg = match hinge.kind {
+                let zygote = match hinge.kind {
                     HingeKind::Fold => 0.0,
                     HingeKind::Bridge => 180.0,
                 };
-                let target_deg = f64::from(hinge.opening_deg);
-                Way { zygote_deg, target_deg, end_deg: target_deg, drawn_deg: zygote_deg }
+                let target = f64::from(hinge.opening_deg);
+                Way { zygote, target, end: target, drawn: zygote }
             })
             .collect();
         for step in &schedule.steps {
             let Some(way) = ways.get_mut(step.hinge) else { continue };
             let (from, to) = (f64::from(step.from_opening_deg), f64::from(step.opening_deg));
-            way.end_deg = to;
-            way.drawn_deg = if open.contains(&step.hinge) { to } else { from };
+            way.end = to;
+            way.drawn = if open.contains(&step.hinge) { to } else { from };
         }
         let plate = plan.thickness.max(LEAST_THICKNESS);
         Ok(Self { frames: Frames::new(plan)?, plate, ways, drawn: BTreeMap::new() })
@@ -129,7 +129,7 @@ impl Scene {
             Record::Started { hinge, .. } => vec![*hinge],
             Record::Opened { hinge, .. } => {
                 let way = self.ways.get_mut(*hinge)?;
-                way.drawn_deg = way.end_deg;
+                way.drawn = way.end;
                 vec![*hinge]
             }
             Record::Telemetry { motions, .. } => {
@@ -145,10 +145,10 @@ impl Scene {
     fn turned(&mut self, motion: &MotionState) -> Option<usize> {
         let opening_deg = motion.opening_deg?;
         let way = self.ways.get_mut(motion.hinge)?;
-        if (opening_deg - way.drawn_deg).abs() < LEAST_TURN_DEG {
+        if (opening_deg - way.drawn).abs() < LEAST_TURN_DEG {
             return None;
         }
-        way.drawn_deg = opening_deg;
+        way.drawn = opening_deg;
         Some(motion.hinge)
     }
 

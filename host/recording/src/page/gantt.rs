@@ -3,6 +3,7 @@
 use super::plot::{LEFT, WIDTH, fault_marks, time_axis, x};
 use super::{Html, escaped};
 use crate::run::Run;
+use std::fmt::Write as _;
 use zygote_controller::{HingeOutcome, HingeReport};
 use zygote_deployment::{Kind, Step};
 
@@ -85,12 +86,13 @@ fn bars(page: &mut Html, step: &Step, hinge: &HingeReport, top: f64, row: f64, (
         let opened = hinge.opened_s.unwrap_or(ended_s);
         let class = if hinge.outcome == HingeOutcome::Interrupted { "bad" } else { hinge.kind.name() };
         shapes += &bar(class, started, opened, inset);
-        text += &format!(", moved {started:.1} to {opened:.1} s");
+        // Writing to a String can't fail, here and below.
+        let _infallible = write!(text, ", moved {started:.1} to {opened:.1} s");
         if let (Some(opened), Some(done)) = (hinge.opened_s, hinge.done_s)
             && done > opened
         {
             shapes += &bar("cool", opened, done, inset);
-            text += &format!(", cool at {done:.1} s");
+            let _infallible = write!(text, ", cool at {done:.1} s");
         }
     }
     page.add(format_args!("<g><title>{}</title>{shapes}</g>\n", escaped(text)));

@@ -1,6 +1,7 @@
 //! A plot over the time of the run, as SVG.
 
 use super::{Html, axis, escaped};
+use std::fmt::Write as _;
 
 /// Pixels of the drawing; the page scales it.
 pub(super) const WIDTH: f64 = 960.0;
@@ -145,7 +146,8 @@ impl Plot {
         let mut before = f64::NEG_INFINITY;
         for (at, value) in kept {
             let pen = if at - before > GAP_S.max(2.5 * column) { 'M' } else { 'L' };
-            path += &format!("{pen}{:.1} {:.1}", x(at, self.end_s), y(value));
+            // Writing to a String can't fail.
+            let _infallible = write!(path, "{pen}{:.1} {:.1}", x(at, self.end_s), y(value));
             before = at;
         }
         path
