@@ -1,5 +1,4 @@
 //! Recordings of real runs on the simulator: read by this crate and by the format's own reader, cut, damaged, on full disks.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::{End, Job, ReadError, RecordError, Recorder, Recording, page, timeline};
 use mcap::records::MessageHeader;
