@@ -30,12 +30,23 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "zygote-recording",
+        &[
+            "zygote-stacking",
+            "zygote-deployment",
+            "zygote-controller",
+            "zygote-protocol",
+            "zygote-rehearsal",
+        ],
+    ),
+    (
         "zygote-cli",
         &[
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
             "zygote-protocol",
+            "zygote-recording",
             "zygote-rehearsal",
             "zygote-sim",
             "zygote-emulator",
