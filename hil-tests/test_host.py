@@ -6,6 +6,7 @@ import pytest
 
 from bench import run
 from bench.fake_mcu import fake_mcu, silence
+from bench.recording import check_cut, check_whole
 from zygote_wire import postcard
 from zygote_wire.codes import Faulted
 from zygote_wire.frames import Frame, Kind
@@ -28,6 +29,7 @@ def test_the_host_deploys_and_ends_with_0(deploy, program, device):
     report = host.report()
     assert report["outcome"] == "deployed"
     assert {hinge["outcome"] for hinge in report["hinges"]} == {"opened"}
+    check_whole(host, program)
 
 
 @pytest.mark.faults
@@ -61,6 +63,7 @@ def test_a_killed_host_loses_its_link_and_the_rig_is_off(deploy, program, device
     host.wait_for_opened(1)
     host.process.kill()
     host.process.communicate()
+    check_cut(host)
     port = dial(device)
     # The rig's link timeout is 1 s; nothing is said before it is over.
     run.silence(port, 1.2)

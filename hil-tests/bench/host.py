@@ -18,9 +18,11 @@ class Deploy:
         self.patience = patience
         self.log = folder / "events.jsonl"
         self.report_file = folder / "report.json"
+        # A recording is never overwritten, and a test may deploy more than once.
+        self.recording = folder / f"run.{len(list(folder.glob('run.*.mcap'))) + 1}.mcap"
         arguments: list[str | Path] = [zygote, "deploy", program.plan, "--rig", program.rig_file, "--port", device]
         arguments += ["--clear"] if clear else []
-        arguments += ["--log", self.log, "--report", self.report_file]
+        arguments += ["--log", self.log, "--report", self.report_file, "--record", self.recording]
         self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def wait_for_opened(self, count: int, patience: float = 30.0) -> None:

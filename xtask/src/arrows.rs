@@ -32,6 +32,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "zygote-recording",
+        &["zygote-stacking", "zygote-deployment", "zygote-controller", "zygote-protocol", "zygote-rehearsal"],
+    ),
+    (
         "zygote-cli",
         &[
             "zygote-calibration",
@@ -39,6 +43,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-deployment",
             "zygote-controller",
             "zygote-protocol",
+            "zygote-recording",
             "zygote-rehearsal",
             "zygote-sim",
             "zygote-emulator",

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
+use crate::recording_file::{self, RecordingFile};
 use crate::{identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
@@ -16,8 +17,10 @@ use zygote_controller::{
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_protocol::Millis;
+use zygote_recording::Job;
 use zygote_rehearsal::scenario::table;
 use zygote_rehearsal::{Ending, Scenario, Stage, Trial};
+use zygote_stacking::Plan;
 
 /// How long an answer to the hello is waited for.
 const HELLO_PATIENCE: Millis = Millis(2_000);
@@ -58,6 +61,9 @@ pub(crate) struct Arguments {
     /// Report as JSON [default: beside plan or schedule, .report.json]
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    /// Recording as MCAP, a new file for every run [default: beside plan or schedule, .1.mcap, .2.mcap ...]
+    #[arg(long, value_name = "FILE.mcap")]
+    record: Option<PathBuf>,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -75,23 +81,34 @@ struct Target {
     sim: bool,
 }
 
+/// What is to be run.
+struct Order<'a> {
+    arguments: &'a Arguments,
+    plan: &'a Plan,
+    rig: &'a Rig,
+    rig_text: &'a str,
+    schedule: &'a Schedule,
+    open: &'a BTreeSet<usize>,
+}
+
 /// Runs; succeeds only when every hinge is at its angle.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let plan = input::plan(&arguments.plan)?;
-    let rig = input::rig(&arguments.rig)?;
-    let schedule = input::run(&arguments.plan, &plan, &rig, arguments.schedule.as_deref())?;
-    let open = opened_before(arguments, &schedule)?;
+    let plan = &input::plan(&arguments.plan)?;
+    let (rig, rig_text) = &input::rig_with_text(&arguments.rig)?;
+    let schedule = &input::run(&arguments.plan, plan, rig, arguments.schedule.as_deref())?;
+    let open = &opened_before(arguments, schedule)?;
+    let order = Order { arguments, plan, rig, rig_text, schedule, open };
     if let Some(device) = &arguments.target.port {
         let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
-        let (report, _) = run_on(arguments, transport, identity::fresh(), &rig, &schedule, &open, &|| false)?;
+        let (report, _) = order.run_on(transport, identity::fresh(), &|| false)?;
         return judge(&report);
     }
-    let standing = standing(&schedule, &open);
+    let standing = standing(schedule, open);
     let Some(path) = &arguments.scenario else {
         let trial = Trial::new(rig.clone(), standing).or_bad_input()?;
         let mut stage = trial.open().or_bad_input()?;
-        let (report, _) = run_on(arguments, &mut stage, SIMULATED, &rig, &schedule, &open, &|| false)?;
-        let truth = true_angles(&stage, &schedule, arguments.json);
+        let (report, _) = order.run_on(&mut stage, SIMULATED, &|| false)?;
+        let truth = true_angles(&stage, schedule, arguments.json);
         judge(&report)?;
         return truth;
     };
@@ -99,8 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let trial = scenario.trial_of(rig.clone(), standing).or_bad_input()?;
     let mut stage = trial.open().or_bad_input()?;
     let stops = stage.user_stops();
-    let ran = run_on(arguments, &mut stage, SIMULATED, &rig, &schedule, &open, &|| stops.get());
-    let ending = match ran {
+    let ending = match order.run_on(&mut stage, SIMULATED, &|| stops.get()) {
         Ok((report, _)) => Ending::Report(Box::new(report)),
         Err(Failure::Failed(error)) => Ending::Refused(format!("{error:#}")),
         Err(bad_input @ Failure::BadInput(_)) => return Err(bad_input),
@@ -134,44 +150,76 @@ fn standing(schedule: &Schedule, open: &BTreeSet<usize>) -> Schedule {
     standing
 }
 
-/// Runs on a line and writes log and report; gives the line back.
-fn run_on<T: Transport>(
-    arguments: &Arguments,
-    transport: T,
-    number: u32,
-    rig: &Rig,
-    schedule: &Schedule,
-    open: &BTreeSet<usize>,
-    stops: &dyn Fn() -> bool,
-) -> Result<(RunReport, T), Failure> {
-    let interrupted = interrupt::flag()?;
-    let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
-    let of = arguments.schedule.as_ref().unwrap_or(&arguments.plan);
-    let log_path = beside(arguments.log.as_ref(), of, "events.jsonl");
-    let mut log = EventLog::new(BufWriter::new(LateFile::new(log_path.clone())));
-    let deployment = Deployment {
-        schedule,
-        rig,
-        run: number,
-        open,
-        clear: arguments.clear,
-        interrupted: &|| interrupted.load(Ordering::Relaxed) || stops(),
-    };
-    let bar = progress_bar(schedule.steps.len() - open.len());
-    let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
-    bar.finish_and_clear();
-    let report = outcome.or_failed()?;
-    let report_path = beside(arguments.report.as_ref(), of, "report.json");
-    let json = serde_json::to_vec_pretty(&report).or_failed()?;
-    write_file(&report_path, &json)?;
-    if arguments.json {
-        say(String::from_utf8_lossy(&json));
-    } else {
-        say(&report);
-        say(format_args!("report: {}\nevents: {}", report_path.display(), log_path.display()));
+impl Order<'_> {
+    /// Runs on a line and writes log, recording and report; gives the line back.
+    fn run_on<T: Transport>(
+        &self,
+        transport: T,
+        number: u32,
+        stops: &dyn Fn() -> bool,
+    ) -> Result<(RunReport, T), Failure> {
+        let &Self { arguments, rig, schedule, open, .. } = self;
+        let of = arguments.schedule.as_ref().unwrap_or(&arguments.plan);
+        let RecordingFile { mut recorder, path: recording_path } =
+            RecordingFile::new(&self.recorded(), arguments.record.as_ref(), of)?;
+        let interrupted = interrupt::flag()?;
+        let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
+        let log_path = beside(arguments.log.as_ref(), of, "events.jsonl");
+        let mut log =
+            EventLog::new(BufWriter::new(LateFile::new(log_path.clone()))).observed_by(&mut recorder);
+        let deployment = Deployment {
+            schedule,
+            rig,
+            run: number,
+            open,
+            clear: arguments.clear,
+            interrupted: &|| interrupted.load(Ordering::Relaxed) || stops(),
+        };
+        let bar = progress_bar(schedule.steps.len() - open.len());
+        let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
+        bar.finish_and_clear();
+        let log_error = log.error().map(ToString::to_string);
+        drop(log);
+        let recorded = recorder.finish(outcome.as_ref().ok());
+        let report = outcome.or_failed()?;
+        let report_path = beside(arguments.report.as_ref(), of, "report.json");
+        let json = serde_json::to_vec_pretty(&report).or_failed()?;
+        write_file(&report_path, &json)?;
+        if arguments.json {
+            say(String::from_utf8_lossy(&json));
+        } else {
+            say(&report);
+            say(format_args!(
+                "report: {}\nevents: {}\nrecording: {}",
+                report_path.display(),
+                log_path.display(),
+                recording_path.display()
+            ));
+        }
+        whole(&log_path, "log", log_error)?;
+        whole(&recording_path, "recording", recorded.err().map(|error| error.to_string()))?;
+        Ok((report, session.into_transport()))
     }
-    tell_log_error(&log, &log_path)?;
-    Ok((report, session.into_transport()))
+
+    /// What the recording tells of it. On the simulator nothing of it depends on the wall clock.
+    fn recorded(&self) -> Job<'_> {
+        let &Self { arguments, plan, rig_text, schedule, open, .. } = self;
+        Job {
+            plan,
+            plan_file: name(&arguments.plan),
+            rig: rig_text,
+            rig_file: name(&arguments.rig),
+            schedule,
+            open,
+            scenario: arguments.scenario.as_deref().map(name),
+            started: (!arguments.target.sim).then(recording_file::now),
+        }
+    }
+}
+
+/// A file's name without its folder.
+fn name(path: &Path) -> &str {
+    path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
 }
 
 /// The file asked for, else one beside what is run.
@@ -179,11 +227,12 @@ fn beside(asked: Option<&PathBuf>, run: &Path, ending: &str) -> PathBuf {
     asked.cloned().unwrap_or_else(|| run.with_extension(ending))
 }
 
-fn tell_log_error(log: &EventLog, path: &Path) -> Result<(), Failure> {
-    match log.error() {
+/// A run that is over is told; then that one of its files isn't whole.
+fn whole(path: &Path, what: &str, error: Option<String>) -> Result<(), Failure> {
+    match error {
         None => Ok(()),
         Some(error) => Err(Failure::Failed(anyhow!(
-            "{}: the run is over, but its log isn't whole: {error}",
+            "{}: the run is over, but its {what} isn't whole: {error}",
             path.display()
         ))),
     }

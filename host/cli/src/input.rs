@@ -16,9 +16,14 @@ pub(crate) fn plan(path: &Path) -> Result<Plan, Failure> {
 
 /// A rig file.
 pub(crate) fn rig(path: &Path) -> Result<Rig, Failure> {
+    Ok(rig_with_text(path)?.0)
+}
+
+/// A rig file, with its text.
+pub(crate) fn rig_with_text(path: &Path) -> Result<(Rig, String), Failure> {
     let name = path.display().to_string();
     let text = fs::read_to_string(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
-    Rig::read(&name, &text).or_bad_input()
+    Ok((Rig::read(&name, &text).or_bad_input()?, text))
 }
 
 /// The schedule in `beside`, else the plan's own; verified against plan and rig.

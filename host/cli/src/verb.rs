@@ -2,8 +2,7 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net,
-    picture, plan, reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
+    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -42,8 +41,7 @@ pub(crate) enum Verb {
     Deploy(deploy::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
-    /// Measure shape-memory hinges: what heats them, how fast, and where they open
-    Calibrate(calibrate::Arguments),
+    Arguments, Calibrate, HTML, Measure, Replay, Report, Tell, Write, a, again, and, as, calibrate, ended, fast, happened, heats, hinges, how, it, memory, one, open, page, plots, recorded, replay, report, run, shape, them, they, what, when, where, with,
     /// Measure the line to a board
     Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
@@ -78,6 +76,8 @@ impl Verb {
             Self::Hil(arguments) => hil::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
+            Self::Replay(arguments) => replay::run(&arguments),
+            Self::Report(arguments) => report::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
             Self::Fold(arguments) => fold_back::run(&arguments),
             Self::Assembly(arguments) => assembly::run(&arguments),

@@ -53,6 +53,12 @@ pub enum DeployError {
         /// What the system says.
         message: String,
     },
+    /// So for whoever is told the same.
+    #[error("the run can't be recorded: {message}")]
+    Recording {
+        /// What the observer says.
+        message: String,
+    },
     /// A command was refused, or the session ended.
     #[error(transparent)]
     Request(#[from] RequestError),
@@ -102,7 +108,7 @@ pub struct Deployment<'a> {
 pub fn deploy<T: Transport>(
     session: &mut Session<T>,
     deployment: &Deployment<'_>,
-    log: &mut EventLog,
+    log: &mut EventLog<'_>,
     show: &mut dyn FnMut(&Progress),
 ) -> Result<RunReport, DeployError> {
     let Deployment { schedule: whole, rig, run, .. } = *deployment;
@@ -127,6 +133,9 @@ pub fn deploy<T: Transport>(
     log.add(session.now(), &Record::Uploaded { run, steps: steps.len() });
     if let Some(error) = log.error() {
         return Err(DeployError::Log { message: error.to_string() });
+    }
+    if let Some(message) = log.observer_error() {
+        return Err(DeployError::Recording { message });
     }
     let report = RunReport::new(run, schedule, &board, &firmware);
     let mut watch = Watch { schedule, fittings, report, started: None, ended: None, finished: false, log };
@@ -187,7 +196,7 @@ pub(crate) fn start<T: Transport>(
 }
 
 /// A run being watched.
-struct Watch<'a> {
+struct Watch<'a, 'o> {
     schedule: &'a Schedule,
     fittings: Vec<Fitting>,
     report: RunReport,
@@ -196,10 +205,10 @@ struct Watch<'a> {
     ended: Option<Micros>,
     /// The MCU says that every step is done.
     finished: bool,
-    log: &'a mut EventLog,
+    log: &'a mut EventLog<'o>,
 }
 
-impl Watch<'_> {
+impl Watch<'_, '_> {
     /// Watches until every hinge is at its angle, something fails, or the user wants to stop.
     fn until_the_end<T: Transport>(
         &mut self,
@@ -333,6 +342,7 @@ impl Watch<'_> {
                 current_ma: telemetry.current.0,
                 opened: telemetry.opened,
                 temperatures,
+                motions: motions.clone(),
             },
         );
         Progress { opened: usize::from(telemetry.opened), total: self.schedule.steps.len(), motions }

@@ -12,6 +12,8 @@ pub struct MotionState {
     pub phase: &'static str,
     /// Measured temperature, °C, of an SMA hinge.
     pub temperature_c: Option<f64>,
+    /// Share of the heater's power, 0 to 1, of an SMA hinge that is heated.
+    pub duty: Option<f64>,
     /// Estimated opening angle, degrees: from the temperature between the rig's austenite start and finish, or from
     /// the servo's pulse. A spring gives no hint.
     pub opening_deg: Option<f64>,
@@ -31,8 +33,12 @@ impl MotionState {
             Phase::Turning { pulse_us } => ("turning", None, turned(step, pulse_us)),
             Phase::Releasing => ("releasing", None, None),
         };
+        let duty = match motion.phase {
+            Phase::Heating { duty, .. } | Phase::Holding { duty, .. } => Some(f64::from(duty) / 1e3),
+            Phase::Cooling { .. } | Phase::Turning { .. } | Phase::Releasing => None,
+        };
         let opening_deg = share.map(|share| from + share * (to - from));
-        Self { hinge: step.hinge, phase, temperature_c, opening_deg }
+        Self { hinge: step.hinge, phase, temperature_c, duty, opening_deg }
     }
 }
 

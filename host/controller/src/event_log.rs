@@ -2,15 +2,15 @@
 //!
 //! Every record has `host_us` (this program's clock, from the start of the log) and `kind`; what the MCU tells also
 //! has `mcu_us` (its clock, from its boot) and, once its clock is known, `at_host_us`: when that was by this program's
-//! clock, from the start of the log.
+//! clock, from the start of the log. An [`Observer`] is told the same.
 
-use crate::ClockFit;
-use serde::Serialize;
+use crate::{ClockFit, MotionState};
+use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 use zygote_protocol::Micros;
 
 /// One line of the log, without its host time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Record {
     /// The session is open.
@@ -94,6 +94,9 @@ pub enum Record {
         opened: u16,
         /// Temperature, °C, of each hinge under way that has one.
         temperatures: Vec<(usize, f64)>,
+        /// All that is known of the hinges under way; for observers, the log's lines don't have it.
+        #[serde(skip)]
+        motions: Vec<MotionState>,
     },
     /// The user stopped the run.
     StopRequested,
@@ -111,7 +114,7 @@ pub enum Record {
 
 impl Record {
     /// When it happened, for what the MCU tells.
-    fn mcu_us(&self) -> Option<Micros> {
+    pub fn mcu_us(&self) -> Option<Micros> {
         match self {
             Self::State { mcu_us, .. }
             | Self::Started { mcu_us, .. }
@@ -135,27 +138,53 @@ fn since_start(clock: ClockFit, mcu: Micros, start: Micros) -> i64 {
     (clock.host_from_mcu(mcu) - start.0 as f64).round() as i64
 }
 
+/// Host times of a record, from the start of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Times {
+    /// When it was told.
+    pub host_us: u64,
+    /// When it happened, for what the MCU tells once its clock is known; negative for what happened before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_host_us: Option<i64>,
+}
+
+/// Is told every record beside the log. A failure of its own ends no run, so it keeps it.
+pub trait Observer {
+    /// Takes a record.
+    fn observe(&mut self, times: Times, record: &Record);
+
+    /// What went wrong first, if anything did.
+    fn error(&self) -> Option<String>;
+}
+
 #[derive(Serialize)]
 struct Line<'a> {
-    host_us: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at_host_us: Option<i64>,
+    #[serde(flatten)]
+    times: Times,
     #[serde(flatten)]
     record: &'a Record,
 }
 
 /// Where records go. A log that can't be written doesn't stop a run: the first error is kept and told at the end.
-pub struct EventLog {
+pub struct EventLog<'a> {
     sink: Box<dyn Write>,
+    observer: Option<&'a mut dyn Observer>,
+    begun: bool,
     start: Option<Micros>,
     clock: Option<ClockFit>,
     error: Option<io::Error>,
 }
 
-impl EventLog {
+impl<'a> EventLog<'a> {
     /// A log into `sink`, flushed after every line.
     pub fn new(sink: impl Write + 'static) -> Self {
-        Self { sink: Box::new(sink), start: None, clock: None, error: None }
+        Self { sink: Box::new(sink), observer: None, begun: false, start: None, clock: None, error: None }
+    }
+
+    /// With somebody who is told the same.
+    #[must_use]
+    pub fn observed_by(self, observer: &'a mut dyn Observer) -> Self {
+        Self { observer: Some(observer), ..self }
     }
 
     /// From now on, tells host times by this clock.
@@ -166,11 +195,18 @@ impl EventLog {
     /// Adds a record.
     pub fn add(&mut self, now: Micros, record: &Record) {
         let start = *self.start.get_or_insert(now);
-        if self.error.is_some() {
-            return;
-        }
         let at_host_us = self.clock.zip(record.mcu_us()).map(|(clock, mcu)| since_start(clock, mcu, start));
-        self.error = self.write(&Line { host_us: now.since(start), at_host_us, record }).err();
+        let times = Times { host_us: now.since(start), at_host_us };
+        if self.error.is_none() {
+            self.error = self.write(&Line { times, record }).err();
+            self.begun |= self.error.is_none();
+        }
+        // A run whose log can't be begun isn't started; it leaves no other trace either.
+        if self.begun
+            && let Some(observer) = &mut self.observer
+        {
+            observer.observe(times, record);
+        }
     }
 
     fn write(&mut self, line: &Line<'_>) -> io::Result<()> {
@@ -182,5 +218,10 @@ impl EventLog {
     /// The first error, if the log isn't whole.
     pub fn error(&self) -> Option<&io::Error> {
         self.error.as_ref()
+    }
+
+    /// The observer's first error.
+    pub fn observer_error(&self) -> Option<String> {
+        self.observer.as_ref().and_then(|observer| observer.error())
     }
 }

@@ -28,7 +28,7 @@ pub use clock::{Clock, ClockFit, Exchange};
 pub use connect::ConnectError;
 pub use deploy::{DeployError, Deployment, Progress, deploy};
 pub use estimate::MotionState;
-pub use event_log::{EventLog, Record};
+pub use event_log::{EventLog, Observer, Record, Times};
 pub use inbox::Notice;
 pub use link_bench::{LinkFigures, link_bench};
 pub use program::{ProgramError, limits, program};

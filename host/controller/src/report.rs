@@ -7,7 +7,7 @@ use zygote_deployment::{Direction, Kind, Schedule};
 use zygote_protocol::{LinkCounters, StepState};
 
 /// How a run ended.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "outcome", content = "why", rename_all = "snake_case")]
 pub enum Outcome {
     /// Every hinge is open.
@@ -35,7 +35,7 @@ pub enum HingeOutcome {
 }
 
 /// One hinge of the run. Times are MCU time from the start of the run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HingeReport {
     /// Number of the hinge in the plan.
     pub hinge: usize,
@@ -56,7 +56,7 @@ pub struct HingeReport {
 }
 
 /// A run in retrospect.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunReport {
     /// The run's number.
     pub run: u32,

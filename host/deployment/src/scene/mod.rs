@@ -4,11 +4,14 @@
 //! the turn of its hinge; its place changes only as far as the thickness of the stack fades.
 
 mod binary;
+mod frames;
 mod keys;
 mod plate;
 
 #[cfg(test)]
 mod tests;
+
+pub use frames::{Frames, Link, Pose};
 
 use crate::kinematics::{Kinematics, frame};
 use crate::picture::{Timeline, TimelineError};
