@@ -2,7 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table, tolerance, torque,
+    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net, picture, plan,
+    reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table, tolerance, torque,
 };
 use clap::Subcommand;
 
@@ -41,7 +42,12 @@ pub(crate) enum Verb {
     Deploy(deploy::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
-    Arguments, Calibrate, HTML, Measure, Replay, Report, Tell, Write, a, again, and, as, calibrate, ended, fast, happened, heats, hinges, how, it, memory, one, open, page, plots, recorded, replay, report, run, shape, them, they, what, when, where, with,
+    /// Tell a recorded run again: what happened when, and how it ended
+    Replay(replay::Arguments),
+    /// Write a recorded run as one HTML page with plots
+    Report(report::Arguments),
+    /// Measure shape-memory hinges: what heats them, how fast, and where they open
+    Calibrate(calibrate::Arguments),
     /// Measure the line to a board
     Link(link::Arguments),
     /// Tell what a refusal or fault code means, and what to do
@@ -68,7 +74,6 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
-            Self::Calibrate(arguments) => calibrate::run(&arguments),
             Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),
             Self::Flash(arguments) => flash::run(&arguments),

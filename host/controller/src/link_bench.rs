@@ -153,7 +153,8 @@ fn take_status<T: Transport>(session: &mut Session<T>, id: u16) -> Result<(), Re
             | Reply::Progress { .. }
             | Reply::LastRun(_)
             | Reply::Settings(_)
-            | Reply::Readings(_),
+            | Reply::Readings(_)
+            | Reply::Memory(_),
         ) => Err(RequestError::WrongReply { command: "status" }),
         Err(refusal) => Err(RequestError::Refused { command: "status", refusal }),
     }
