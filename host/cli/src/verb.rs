@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::{
     alternatives, assembly, check, deploy, explain, export, flash, fold_back, link, net, picture, plan,
-    reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque,
+    reconfigure, rehearse, schedule, sequence, settings, sim, table, tolerance, torque, view,
 };
 use clap::Subcommand;
 
@@ -32,6 +32,8 @@ pub(crate) enum Verb {
     Torque(torque::Arguments),
     /// Draw a plan: stack, shape, the way between them, or its schedule
     Picture(picture::Arguments),
+    /// Show a plan in the browser: the way from stack to shape, panel by panel
+    View(view::Arguments),
     /// Write a plan as a file of another program: an animated scene
     Export(export::Arguments),
     /// Run a plan's schedule backwards: what folds the shape up again, with servos alone
@@ -78,6 +80,7 @@ impl Verb {
             Self::Table(arguments) => table::run(&arguments),
             Self::Torque(arguments) => torque::run(&arguments),
             Self::Schedule(arguments) => schedule::run(&arguments),
+            Self::View(arguments) => view::run(&arguments),
             Self::Picture(arguments) => picture::run(&arguments),
         }
     }

@@ -1,0 +1,168 @@
+//! `zygote view`: a plan in the browser, from its stack to its shape; or a picture of it as that page draws it.
+//!
+//! ```text
+//! plan, schedule, rig -> Scene (JSON) -> Server (loopback, GET alone) -> the page, built into this program
+//!                                            ^--- a picture, posted by a browser without a window
+//! ```
+
+mod browser;
+mod motion;
+mod page;
+mod photograph;
+mod request;
+mod scene;
+mod server;
+
+use crate::failure::{Failure, OrFail};
+use crate::output::say;
+use crate::{input, interrupt};
+use anyhow::{Context, anyhow};
+use clap::{Args, ValueEnum};
+use photograph::Photograph;
+use server::Server;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+use zygote_deployment::{Direction, Fingerprint};
+
+/// How often Ctrl-C is looked for.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// Arguments of `zygote view`.
+#[derive(Args)]
+#[command(
+    after_help = "The page is served to this computer alone, and to nobody but itself. Without a schedule the hinges open one by \
+    one, in the order of the tree."
+)]
+pub(crate) struct Arguments {
+    /// The plan
+    #[arg(value_name = "PLAN.fold")]
+    plan: PathBuf,
+    /// A schedule beside the plan
+    #[arg(long, value_name = "SCHEDULE.json")]
+    schedule: Option<PathBuf>,
+    /// The rig, to colour hinges by their torque
+    #[arg(long, value_name = "RIG.toml")]
+    rig: Option<PathBuf>,
+    /// Port of the address [default: any that is free]
+    #[arg(long, value_name = "N", conflicts_with = "png")]
+    port: Option<u16>,
+    /// Open no browser
+    #[arg(long, conflicts_with = "png")]
+    no_open: bool,
+    /// Write a picture instead, drawn by a Chromium without a window
+    #[arg(long, value_name = "FILE.png")]
+    png: Option<PathBuf>,
+    #[command(flatten)]
+    picture: PictureArguments,
+}
+
+/// What the picture shows.
+#[derive(Args)]
+struct PictureArguments {
+    /// From the stack (0) to the shape (1)
+    #[arg(long, value_name = "0..1", default_value_t = 1.0, value_parser = share, requires = "png")]
+    at: f64,
+    /// What colours say
+    #[arg(long, value_enum, default_value_t = Colour::Pile, requires = "png")]
+    colour: Colour,
+    /// How far piles and layers are drawn apart
+    #[arg(long, value_name = "0..1", default_value_t = 0.0, value_parser = share, requires = "png")]
+    explode: f64,
+    /// Width and height
+    #[arg(long, value_name = "WxH", default_value = "1200x800", value_parser = size, requires = "png")]
+    size: [u32; 2],
+    /// Light on dark
+    #[arg(long, requires = "png")]
+    dark: bool,
+    /// The browser [default: the first Chromium or Chrome on the PATH]
+    #[arg(long, value_name = "PROGRAM", requires = "png")]
+    browser: Option<PathBuf>,
+}
+
+/// What colours say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Colour {
+    /// The pile of a panel
+    Pile,
+    /// Its height in the pile
+    Height,
+    /// When its hinge opens
+    Time,
+    /// What its hinge is
+    Hinge,
+    /// The torque on its hinge, over what that is rated for
+    Torque,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (64..=4096).contains(side));
+    let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| "expected width and height, each 64 to 4096, as in 1200x800".to_owned())
+}
+
+/// Serves the page until Ctrl-C, or draws.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let name = arguments.plan.display();
+    let Some(page) = page::PAGE else {
+        return Err(Failure::Failed(anyhow!(
+            "this program was built without the viewer's page; make it with `cargo xtask viewer` and build again"
+        )));
+    };
+    let mut plan = input::plan(&arguments.plan)?;
+    let rig = arguments.rig.as_deref().map(input::rig).transpose()?;
+    let schedule = if plan.schedule.is_some() || arguments.schedule.is_some() {
+        let (file, schedule) =
+            input::unverified_schedule(&arguments.plan, &plan, arguments.schedule.as_deref())?;
+        if schedule.direction() == Direction::Fold {
+            return Err(Failure::BadInput(anyhow!(
+                "{file}: is a way back; show the schedule that it was made of, and go through that backwards"
+            )));
+        }
+        let (of, own) = (schedule.plan_crc64, Fingerprint::of(&plan));
+        if of != own {
+            return Err(Failure::BadInput(anyhow!(
+                "{file}: is for plan {of}, expected plan {own} of {name}"
+            )));
+        }
+        plan.schedule = Some(schedule.to_json().or_failed()?);
+        Some(schedule)
+    } else {
+        None
+    };
+    let json = scene::json(&arguments.plan, &plan, schedule.as_ref(), rig.as_ref())?;
+    let told = if schedule.is_some() { "" } else { " without a schedule, opened in the order of the tree" };
+    if let Some(png) = &arguments.png {
+        if arguments.picture.colour == Colour::Torque && rig.is_none() {
+            return Err(Failure::BadInput(anyhow!(
+                "--colour torque needs a --rig that says what panels weigh"
+            )));
+        }
+        return Photograph { file: png, of: &arguments.picture }.take(page, json);
+    }
+    let stop = interrupt::flag()?;
+    let port = arguments.port.unwrap_or(0);
+    let server = Server::start(port, page, json, None)
+        .with_context(|| {
+            format!("port {port} of this computer can't be used; leave out --port for any that is free")
+        })
+        .or_bad_input()?;
+    let address = server.address();
+    say(format_args!("{name}:{told} {address}"));
+    say("Ctrl-C ends it.");
+    // Whoever started this program waits for that line.
+    io::stdout().flush().or_failed()?;
+    if !arguments.no_open && !browser::open(&address) {
+        say("No browser could be opened: open the address yourself.");
+    }
+    while !stop.load(Ordering::Relaxed) {
+        std::thread::sleep(PATIENCE);
+    }
+    Ok(())
+}

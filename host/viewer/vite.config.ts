@@ -1,0 +1,31 @@
+//! The build of the page, and its two kinds of tests.
+
+import { defineConfig } from "vitest/config";
+import { oneFile } from "./inline";
+
+export default defineConfig({
+  plugins: [oneFile()],
+  build: {
+    outDir: "page",
+    // It holds a file that says what it is for.
+    emptyOutDir: false,
+    cssCodeSplit: false,
+    modulePreload: false,
+    chunkSizeWarningLimit: 2000,
+    target: "es2022",
+  },
+  test: {
+    fileParallelism: false,
+    projects: [
+      { test: { name: "unit", include: ["tests/**/*.test.ts"] } },
+      {
+        test: {
+          name: "browser",
+          include: ["browser/**/*.test.ts"],
+          testTimeout: 30_000,
+          hookTimeout: 60_000,
+        },
+      },
+    ],
+  },
+});
