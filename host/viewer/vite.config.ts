@@ -26,6 +26,8 @@ export default defineConfig({
           hookTimeout: 60_000,
         },
       },
+      // No part of the tests: how long the page works at a frame.
+      { test: { name: "measure", include: ["browser/measure.ts"], testTimeout: 300_000, hookTimeout: 300_000 } },
     ],
   },
 });

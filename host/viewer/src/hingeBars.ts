@@ -7,8 +7,10 @@ import type { Hinge } from "./scene";
 
 const LENGTH = 0.86;
 /** Half the width of a bar, over the half thickness of a plate; at least. */
-const WIDER = 1.5;
+const WIDER = 1.25;
 const LEAST = 0.016;
+/** Edges nearer to each other than this are joined, however thick a layer is. */
+const TOGETHER = 0.15;
 
 const CORNERS = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]] as const;
 
@@ -57,7 +59,9 @@ export class HingeBars {
     this.hinges.forEach((hinge, number) => {
       edge(frames, apart, explode, hinge.panels[0], hinge.edges[0], a, along);
       edge(frames, apart, explode, hinge.panels[1], hinge.edges[1], b, other);
-      this.middles[number]!.copy(a).add(b).multiplyScalar(0.5);
+      // Of panels drawn apart it stays with the first.
+      const middle = this.middles[number]!.copy(a);
+      if (a.distanceTo(b) < TOGETHER) middle.add(b).multiplyScalar(0.5);
       if (!this.shown(number)) {
         this.mesh.setMatrixAt(number, matrix.makeScale(0, 0, 0));
         return;

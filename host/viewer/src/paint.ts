@@ -9,8 +9,8 @@ export type Mode = (typeof MODES)[number];
 
 export const MODE_NAMES: Readonly<Record<Mode, string>> = {
   pile: "Pile",
-  height: "Height in the pile",
-  time: "Time of opening",
+  height: "Height",
+  time: "Opening time",
   hinge: "Hinge and angle",
   drive: "Actuator",
   torque: "Torque",

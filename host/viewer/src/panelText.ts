@@ -42,7 +42,7 @@ export function panelText(scene: Scene, places: Places, panel: number): PanelTex
     const drive = scene.drives?.[number];
     if (drive) notes.push(DRIVE_NAMES[drive] ?? drive);
     const [start, end] = scene.spans[number]!;
-    notes.push(scene.scheduled ? `${minutes(start)} to ${minutes(end)}` : `opens as number ${Math.round(start) + 1}`);
+    notes.push(scene.scheduled ? `${minutes(start)} to ${minutes(end)}` : `number ${Math.round(start) + 1} in the order`);
     const load = scene.loads?.[number];
     if (load) notes.push(`${Math.abs(load.torque_mnm).toFixed(1)} mNm, ${load.factor.toFixed(2)} of its rating`);
     return {

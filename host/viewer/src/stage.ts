@@ -1,7 +1,7 @@
 //! The picture: panels, hinges, light, a shadow on the ground, and the eye that goes around them.
 
 import {
-  Color, DirectionalLight, HemisphereLight, Mesh, PCFSoftShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
+  Color, DirectionalLight, HemisphereLight, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Raycaster,
   Scene as Space, ShadowMaterial, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -39,7 +39,7 @@ export class Stage {
   constructor(canvas: HTMLCanvasElement, scene: Scene, places: Places, changed: () => void) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false });
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFSoftShadowMap;
+    this.renderer.shadowMap.type = PCFShadowMap;
     this.motion = new Motion(scene, places);
     this.framing = new Framing(this.motion, scene);
     this.frame = this.framing.at(0, 0);
@@ -49,7 +49,7 @@ export class Stage {
     this.ground.receiveShadow = true;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.radius = 5;
+    this.sun.shadow.radius = 7;
     this.space.add(this.plates.mesh, this.bars.mesh, this.ground, this.sun, this.sun.target, this.sky);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);

@@ -15,10 +15,10 @@ export interface Theme {
 
 export const THEMES: Readonly<Record<"light" | "dark", Theme>> = {
   light: {
-    background: "#f5f4f0", paper: "#ffffff", accent: "#d9480f", shadow: 0.16, bounce: "#cfc9bd", sky: 1.75, sun: 1.75,
+    background: "#f5f4f0", paper: "#ffffff", accent: "#d9480f", shadow: 0.13, bounce: "#e6e2d8", sky: 2.1, sun: 1.45,
   },
   dark: {
-    background: "#16181c", paper: "#d9dce2", accent: "#ffb454", shadow: 0.5, bounce: "#4a4f5a", sky: 1.35, sun: 1.75,
+    background: "#16181c", paper: "#d9dce2", accent: "#ffb454", shadow: 0.5, bounce: "#8d94a3", sky: 1.95, sun: 1.5,
   },
 };
 

@@ -56,11 +56,14 @@ export class TimeBar {
 function activity(source: Source): SVGSVGElement {
   const counts = source.timeline.activity(PARTS);
   const most = Math.max(...counts, 1);
+  // Where as much moves all the time there is nothing to see.
+  const even = Math.min(...counts) > 0.9 * most;
   const drawing = icon(
     `M0 24 ${counts.map((count, at) => `L${at} ${(24 - (20 * count) / most).toFixed(2)} L${at + 1} ${(24 - (20 * count) / most).toFixed(2)}`).join(" ")} L${PARTS} 24Z`,
   );
   drawing.setAttribute("viewBox", `0 0 ${PARTS} 24`);
   drawing.setAttribute("preserveAspectRatio", "none");
   drawing.classList.add("activity");
+  if (even) drawing.style.display = "none";
   return drawing;
 }

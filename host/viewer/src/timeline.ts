@@ -32,14 +32,15 @@ export class Timeline {
     return this.playback.spans.filter(([, end]) => end <= time + 1e-9).length;
   }
 
-  /** How many hinges move in each of so many equal parts of the time. */
+  /** How many hinges move in each of so many equal parts of the time, on average. */
   activity(parts: number): number[] {
     const counts = Array.from({ length: parts }, () => 0);
     if (this.end <= 0) return counts;
-    for (const [start, end] of this.playback.spans) {
-      const first = Math.floor((start / this.end) * parts);
-      const last = Math.min(Math.ceil((end / this.end) * parts), parts);
-      for (let part = first; part < last; part++) counts[part] = (counts[part] ?? 0) + 1;
+    for (const span of this.playback.spans) {
+      const [start, end] = span.map((time) => (time / this.end) * parts) as [number, number];
+      for (let part = Math.floor(start); part < Math.min(Math.ceil(end), parts); part++) {
+        counts[part]! += Math.min(end, part + 1) - Math.max(start, part);
+      }
     }
     return counts;
   }

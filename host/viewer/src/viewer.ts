@@ -12,7 +12,7 @@ import { ThemeChoice } from "./theme";
 import { TimeBar } from "./timeBar";
 import { Toolbar } from "./toolbar";
 
-/** So many panels have hinges and words at a glance; with more they are shown when asked for. */
+/** A pointer that went less far, in pixels, picked something. */
 const DRAG = 4;
 
 export class Viewer {
@@ -57,7 +57,8 @@ export class Viewer {
       this.stage.theme(theme);
       this.ask();
     });
-    app.append(heading(scene), this.tools.root, this.card.root, this.bar.root, this.tools.help);
+    const side = element("div", { id: "side" }, this.tools.root, this.card.root);
+    app.append(heading(scene), side, this.bar.root, this.tools.help);
   }
 
   start(): void {
@@ -97,7 +98,8 @@ export class Viewer {
     const all = this.scene.hinges.map((_, hinge) => hinge);
     const own = this.picked === undefined ? [] : [...this.places.hinges[this.picked]!];
     const shown = this.hinges ? all : own;
-    this.labels.show(shown, this.hinges, state.fractions, motion.frames, bars.middles, camera, size);
+    const apart = { by: motion.apart, share: this.explode };
+    this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
     this.bar.update();
     this.card.update(state.fractions);
     this.work.push(performance.now() - start);

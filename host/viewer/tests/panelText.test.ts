@@ -29,7 +29,7 @@ test("a panel that collides says so", () => {
 
 test("without a schedule the number in the order stands for the time", () => {
   const { drives: _, loads: __, ...bare } = byHand({ scheduled: false, spans: [[0, 1], [1, 2], [2, 3]], end: 3 });
-  expect(panelText(bare, places, 2).hinges[0]!.notes).toEqual(["opens as number 2"]);
+  expect(panelText(bare, places, 2).hinges[0]!.notes).toEqual(["number 2 in the order"]);
 });
 
 test("angles go from the stack to the shape", () => {

@@ -47,10 +47,20 @@ pub(super) fn open(address: &str) -> bool {
 
 /// The first Chromium on the PATH.
 pub(super) fn find() -> Option<PathBuf> {
+    NAMES.iter().find_map(|name| named(Path::new(name)))
+}
+
+/// A program: where it is told to be, or else a name on the PATH.
+pub(super) fn named(program: &Path) -> Option<PathBuf> {
+    if program.components().count() > 1 {
+        return Some(program.to_owned()).filter(|place| place.is_file());
+    }
     let path = env::var_os("PATH")?;
-    let folders: Vec<_> = env::split_paths(&path).collect();
-    let places = NAMES.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    places.map(|place| place.with_extension(env::consts::EXE_EXTENSION)).find(|place| place.is_file())
+    let mut places = env::split_paths(&path).map(|folder| folder.join(program));
+    places.find_map(|place| {
+        let whole = place.with_extension(env::consts::EXE_EXTENSION);
+        if whole.is_file() { Some(whole) } else { Some(place).filter(|place| place.is_file()) }
+    })
 }
 
 /// A browser without a window, and a profile that is gone with it.

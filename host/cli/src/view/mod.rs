@@ -90,8 +90,10 @@ enum Colour {
     Height,
     /// When its hinge opens
     Time,
-    /// What its hinge is
+    /// What its hinge is, and its angle in the shape
     Hinge,
+    /// What drives its hinge, where a schedule says it
+    Drive,
     /// The torque on its hinge, over what that is rated for
     Torque,
 }
@@ -110,11 +112,6 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 /// Serves the page until Ctrl-C, or draws.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.plan.display();
-    let Some(page) = page::PAGE else {
-        return Err(Failure::Failed(anyhow!(
-            "this program was built without the viewer's page; make it with `cargo xtask viewer` and build again"
-        )));
-    };
     let mut plan = input::plan(&arguments.plan)?;
     let rig = arguments.rig.as_deref().map(input::rig).transpose()?;
     let schedule = if plan.schedule.is_some() || arguments.schedule.is_some() {
@@ -144,15 +141,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
                 "--colour torque needs a --rig that says what panels weigh"
             )));
         }
-        return Photograph { file: png, of: &arguments.picture }.take(page, json);
+        return Photograph { file: png, of: &arguments.picture }.take(json);
     }
-    let stop = interrupt::flag()?;
     let port = arguments.port.unwrap_or(0);
-    let server = Server::start(port, page, json, None)
+    let listener = server::bind(port)
         .with_context(|| {
             format!("port {port} of this computer can't be used; leave out --port for any that is free")
         })
         .or_bad_input()?;
+    let page = page::page()?;
+    let stop = interrupt::flag()?;
+    let server = Server::start(listener, page, json, None).context("nothing can be served").or_failed()?;
     let address = server.address();
     say(format_args!("{name}:{told} {address}"));
     say("Ctrl-C ends it.");

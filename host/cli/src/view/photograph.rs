@@ -1,12 +1,13 @@
 //! A picture as the page draws it: a browser without a window opens the page, which posts what it drew.
 
 use super::browser::{self, Unseen};
-use super::server::{Brought, Server};
+use super::page::page;
+use super::server::{self, Brought, Server};
 use super::{Colour, PictureArguments};
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
 use anyhow::{Context, anyhow};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
@@ -25,17 +26,12 @@ pub(super) struct Photograph<'a> {
 
 impl Photograph<'_> {
     /// Takes it.
-    pub(super) fn take(&self, page: &'static [u8], scene: Vec<u8>) -> Result<(), Failure> {
-        let program = match &self.of.browser {
-            Some(program) => program.clone(),
-            None => browser::find()
-                .context("no Chromium or Chrome on the PATH; install one (on Debian `apt install chromium`), or name it with --browser")
-                .or_failed()?,
-        };
+    pub(super) fn take(&self, scene: Vec<u8>) -> Result<(), Failure> {
+        let program = self.browser()?;
         let (sender, receiver) = channel();
-        let server = Server::start(0, page, scene, Some(sender))
-            .context("no port of this computer is free")
-            .or_failed()?;
+        let listener = server::bind(0).context("no port of this computer is free").or_failed()?;
+        let server =
+            Server::start(listener, page()?, scene, Some(sender)).context("nothing can be served").or_failed()?;
         let address = format!("{}#{}", server.address(), self.wishes());
         let name = program.display();
         let mut browser = Unseen::open(&program, &address, self.of.size)
@@ -68,6 +64,21 @@ impl Photograph<'_> {
         Ok(())
     }
 
+    fn browser(&self) -> Result<PathBuf, Failure> {
+        match &self.of.browser {
+            Some(program) => browser::named(program)
+                .with_context(|| {
+                    format!("{}: no such program; --browser names a Chromium or Chrome", program.display())
+                })
+                .or_bad_input(),
+            None => browser::find()
+                .context(
+                    "no Chromium or Chrome on the PATH; install one (on Debian `apt install chromium`), or name it with --browser",
+                )
+                .or_failed(),
+        }
+    }
+
     /// What the page is to draw, behind the `#` of its address.
     fn wishes(&self) -> String {
         let PictureArguments { at, colour, explode, size: [width, height], dark, .. } = self.of;
@@ -76,6 +87,7 @@ impl Photograph<'_> {
             Colour::Height => "height",
             Colour::Time => "time",
             Colour::Hinge => "hinge",
+            Colour::Drive => "drive",
             Colour::Torque => "torque",
         };
         let theme = if *dark { "dark" } else { "light" };

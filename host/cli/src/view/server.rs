@@ -31,18 +31,25 @@ struct Offer {
     brought: Option<Sender<Brought>>,
 }
 
+/// Takes a port of loopback, 0 for any that is free.
+///
+/// # Errors
+/// The port can't be had.
+pub(super) fn bind(port: u16) -> io::Result<TcpListener> {
+    TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)))
+}
+
 impl Server {
-    /// Serves on a port of loopback, 0 for any that is free. Pictures are taken only where somebody waits for one.
+    /// Serves. Pictures are taken only where somebody waits for one.
     ///
     /// # Errors
-    /// The port can't be had.
+    /// The system has no thread left.
     pub(super) fn start(
-        port: u16,
+        listener: TcpListener,
         page: &'static [u8],
         scene: Vec<u8>,
         brought: Option<Sender<Brought>>,
     ) -> io::Result<Self> {
-        let listener = TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)))?;
         let port = listener.local_addr()?.port();
         let offer = Arc::new(Offer { page, scene, brought });
         thread::Builder::new().name("view".to_owned()).spawn(move || {
@@ -105,6 +112,10 @@ mod tests {
     use std::io::{Read, Write};
     use std::sync::mpsc::channel;
 
+    fn start(page: &'static [u8], scene: &[u8], brought: Option<Sender<Brought>>) -> Server {
+        Server::start(bind(0).expect("a free port"), page, scene.to_vec(), brought).expect("a thread")
+    }
+
     fn exchange(server: &Server, method: &str, path: &str, body: &str) -> String {
         let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, server.port)).expect("listens");
         let (port, length) = (server.port, body.len());
@@ -120,7 +131,7 @@ mod tests {
 
     #[test]
     fn page_and_scene_are_served_and_nothing_else() {
-        let server = Server::start(0, b"<html>", b"{}".to_vec(), None).expect("a free port");
+        let server = start(b"<html>", b"{}", None);
         assert!(exchange(&server, "GET", "/", "").ends_with("\r\n\r\n<html>"));
         assert!(exchange(&server, "GET", "/scene.json", "").ends_with("\r\n\r\n{}"));
         assert!(exchange(&server, "HEAD", "/", "").ends_with("\r\n\r\n"));
@@ -134,7 +145,7 @@ mod tests {
     #[test]
     fn a_picture_comes_to_who_waits_for_it() {
         let (sender, receiver) = channel();
-        let server = Server::start(0, b"", Vec::new(), Some(sender)).expect("a free port");
+        let server = start(b"", b"", Some(sender));
         assert!(exchange(&server, "POST", "/picture", "png").starts_with("HTTP/1.1 200"));
         assert_eq!(receiver.recv(), Ok(Brought::Picture(b"png".to_vec())));
         exchange(&server, "POST", "/trouble", "no WebGL");
@@ -143,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_port_that_is_taken_is_an_error() {
-        let first = Server::start(0, b"", Vec::new(), None).expect("a free port");
-        assert!(Server::start(first.port, b"", Vec::new(), None).is_err());
+        let first = start(b"", b"", None);
+        assert!(bind(first.port).is_err());
     }
 }
