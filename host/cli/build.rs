@@ -10,7 +10,8 @@ fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", folder.display());
     let source = if page.is_file() {
         println!("cargo::rerun-if-changed={}", page.display());
-        format!("Some(include_bytes!({:?}))", page.canonicalize()?)
+        let page = page.canonicalize()?.display().to_string();
+        format!("Some(include_bytes!({page:?}))")
     } else {
         "None".to_owned()
     };

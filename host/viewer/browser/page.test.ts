@@ -38,7 +38,7 @@ const panelAt = (pile: number, height: number) =>
 test("the page says what the plan is, asks nobody else and complains of nothing", async () => {
   const { page, address } = shown;
   expect(await page.title()).toBe("fish92.txt · zygote");
-  expect(await page.locator("#what").innerText()).toMatch(/^fish92\n92 panels in 4 piles of 23 · [\d.]+ times the volume\nNo collision/);
+  expect(await page.locator("#what").innerText()).toMatch(/^fish92\s+92 panels in 4 piles of 23 · [\d.]+ times the volume\s+No collision/);
   expect(await told()).toBe("0 of 91 hinges open");
   expect(shown.asked.every((url) => url.startsWith(address) || url.startsWith("data:"))).toBe(true);
   expect(shown.complaints).toEqual([]);
@@ -87,7 +87,7 @@ test("a click on a panel tells of that panel, a click beside picks nothing", asy
     expect(await card().textContent()).toMatch(new RegExp(`^Panel ${panel}\\b`));
     expect(await page.locator("#panel").innerText()).toContain(`Pile ${pile}, height 22 of 22`);
   }
-  await page.mouse.click(300, 500);
+  await page.mouse.click(30, 300);
   expect(await page.locator("#panel").isHidden()).toBe(true);
 });
 
@@ -117,10 +117,10 @@ test("everything can be done with keys", async () => {
   await press("n");
   expect(await card().textContent()).not.toBe(first);
   await press("c");
-  expect(await page.getByLabel("Colour").inputValue()).toBe("height");
+  expect(await page.getByRole("combobox", { name: "Colour" }).inputValue()).toBe("height");
   for (const mode of ["time", "hinge", "drive", "pile"]) {
     await press("c");
-    expect(await page.getByLabel("Colour").inputValue()).toBe(mode);
+    expect(await page.getByRole("combobox", { name: "Colour" }).inputValue()).toBe(mode);
   }
   await press("h");
   expect(await page.locator(".label:visible").count()).toBeGreaterThan(20);
@@ -149,6 +149,8 @@ test("it is light or dark as the system says, until somebody chooses", async () 
   expect(await corner()).toBeGreaterThan(200);
   await page.evaluate(() => localStorage.clear());
   await page.emulateMedia({ colorScheme: "light" });
+  await page.reload();
+  await page.waitForSelector("html[data-ready]");
 });
 
 /** A picture may differ by so much of full light on average: another version of the browser draws edges otherwise. */

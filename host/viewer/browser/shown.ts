@@ -55,7 +55,7 @@ export async function show(folder: string, ...options: string[]): Promise<Shown>
     server.on("exit", (code) => reject(new Error(`zygote view ended with ${code}: ${said}`)));
   });
   const context = await chromium.launchPersistentContext(join(folder, "profile"), {
-    executablePath: named("BROWSER_PROGRAM"), args: FLAGS, viewport: { width: 1100, height: 720 }, colorScheme: "light",
+    executablePath: named("BROWSER_PROGRAM"), args: FLAGS, viewport: { width: 840, height: 560 }, colorScheme: "light",
   });
   const page = context.pages()[0] ?? (await context.newPage());
   const complaints: string[] = [];

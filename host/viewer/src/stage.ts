@@ -69,7 +69,7 @@ export class Stage {
   reset(): void {
     const field = (FIELD_OF_VIEW * Math.PI) / 360;
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = (1.06 * this.frame.radius) / Math.sin(Math.atan(Math.tan(field) * narrow));
+    const distance = (0.96 * this.frame.radius) / Math.sin(Math.atan(Math.tan(field) * narrow));
     this.controls.target.copy(this.frame.middle);
     this.camera.position.copy(TO_EYE).multiplyScalar(distance).add(this.frame.middle);
     this.controls.update();
