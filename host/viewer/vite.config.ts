@@ -26,7 +26,8 @@ export default defineConfig({
           hookTimeout: 60_000,
         },
       },
-      // No part of the tests: how long the page works at a frame.
+      // No part of the tests: the book's pictures, and how long the page works at a frame.
+      { test: { name: "pictures", include: ["browser/pictures.ts"], testTimeout: 300_000, hookTimeout: 300_000 } },
       { test: { name: "measure", include: ["browser/measure.ts"], testTimeout: 300_000, hookTimeout: 300_000 } },
     ],
   },

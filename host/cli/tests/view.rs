@@ -67,5 +67,8 @@ fn without_a_browser_no_picture_is_written() {
     let run = place.zygote(&["view", "i.fold", "--png", "i.png", "--colour", "torque"]);
     assert_eq!(run.code, 2);
     assert!(run.errors.contains("needs a --rig"), "{}", run.errors);
+    let run = place.zygote(&["view", "i.fold", "--png", "i.png", "--colour", "drive"]);
+    assert_eq!(run.code, 2);
+    assert!(run.errors.contains("needs a schedule"), "{}", run.errors);
     assert!(!place.files().contains(&"i.png".to_owned()));
 }

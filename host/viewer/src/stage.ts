@@ -35,6 +35,8 @@ export class Stage {
   private readonly ground: Mesh<PlaneGeometry, ShadowMaterial>;
   private readonly framing: Framing;
   private frame: Frame;
+  /** The smaller side of what isn't covered, over the height. */
+  private free = 1;
 
   constructor(canvas: HTMLCanvasElement, scene: Scene, places: Places, changed: () => void) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false });
@@ -57,8 +59,11 @@ export class Stage {
     this.controls.addEventListener("change", changed);
   }
 
-  resize(width: number, height: number, pixelRatio: number): void {
+  /** `inset` is how much of the right and of the bottom is covered, in pixels: the middle is that of the rest. */
+  resize(width: number, height: number, pixelRatio: number, inset = { right: 0, bottom: 0 }): void {
     Object.assign(this.size, { width, height });
+    this.free = Math.min(1 - inset.bottom / height, (width - inset.right) / height);
+    this.camera.setViewOffset(width, height, inset.right / 2, inset.bottom / 2, width, height);
     this.renderer.setPixelRatio(Math.min(pixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
@@ -68,8 +73,7 @@ export class Stage {
   /** The eye back to where it began. */
   reset(): void {
     const field = (FIELD_OF_VIEW * Math.PI) / 360;
-    const narrow = Math.min(1, this.camera.aspect);
-    const distance = (0.96 * this.frame.radius) / Math.sin(Math.atan(Math.tan(field) * narrow));
+    const distance = (0.96 * this.frame.radius) / Math.sin(Math.atan(Math.tan(field) * this.free));
     this.controls.target.copy(this.frame.middle);
     this.camera.position.copy(TO_EYE).multiplyScalar(distance).add(this.frame.middle);
     this.controls.update();

@@ -163,7 +163,10 @@ export class Viewer {
   }
 
   private resize(): void {
-    this.stage.resize(this.canvas.clientWidth, this.canvas.clientHeight, devicePixelRatio);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    // What the tools leave free; they may cover a little of a wide page, but not the middle of a narrow one.
+    const inset = { right: Math.min(200, Math.max(0, width - height)), bottom: Math.min(100, height / 5) };
+    this.stage.resize(width, height, devicePixelRatio, inset);
     this.ask();
   }
 

@@ -24,7 +24,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
-use zygote_deployment::{Direction, Fingerprint};
+use zygote_deployment::{Direction, Fingerprint, Schedule};
+use zygote_stacking::Plan;
 
 /// How often Ctrl-C is looked for.
 const PATIENCE: Duration = Duration::from_millis(200);
@@ -46,10 +47,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "RIG.toml")]
     rig: Option<PathBuf>,
     /// Port of the address [default: any that is free]
-    #[arg(long, value_name = "N", conflicts_with = "png")]
-    port: Option<u16>,
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    port: u16,
     /// Open no browser
-    #[arg(long, conflicts_with = "png")]
+    #[arg(long)]
     no_open: bool,
     /// Write a picture instead, drawn by a Chromium without a window
     #[arg(long, value_name = "FILE.png")]
@@ -114,47 +115,35 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.plan.display();
     let mut plan = input::plan(&arguments.plan)?;
     let rig = arguments.rig.as_deref().map(input::rig).transpose()?;
-    let schedule = if plan.schedule.is_some() || arguments.schedule.is_some() {
-        let (file, schedule) =
-            input::unverified_schedule(&arguments.plan, &plan, arguments.schedule.as_deref())?;
-        if schedule.direction() == Direction::Fold {
-            return Err(Failure::BadInput(anyhow!(
-                "{file}: is a way back; show the schedule that it was made of, and go through that backwards"
-            )));
-        }
-        let (of, own) = (schedule.plan_crc64, Fingerprint::of(&plan));
-        if of != own {
-            return Err(Failure::BadInput(anyhow!(
-                "{file}: is for plan {of}, expected plan {own} of {name}"
-            )));
-        }
-        plan.schedule = Some(schedule.to_json().or_failed()?);
-        Some(schedule)
-    } else {
-        None
-    };
+    let schedule = schedule(arguments, &mut plan)?;
     let json = scene::json(&arguments.plan, &plan, schedule.as_ref(), rig.as_ref())?;
-    let told = if schedule.is_some() { "" } else { " without a schedule, opened in the order of the tree" };
-    if let Some(png) = &arguments.png {
-        if arguments.picture.colour == Colour::Torque && rig.is_none() {
-            return Err(Failure::BadInput(anyhow!(
-                "--colour torque needs a --rig that says what panels weigh"
-            )));
-        }
-        return Photograph { file: png, of: &arguments.picture }.take(json);
-    }
-    let port = arguments.port.unwrap_or(0);
+    let port = arguments.port;
     let listener = server::bind(port)
         .with_context(|| {
             format!("port {port} of this computer can't be used; leave out --port for any that is free")
         })
         .or_bad_input()?;
+    if let Some(png) = &arguments.png {
+        let lacking = match arguments.picture.colour {
+            Colour::Torque if rig.is_none() => {
+                Some("--colour torque needs a --rig that says what panels weigh")
+            }
+            Colour::Drive if schedule.is_none() => Some("--colour drive needs a schedule"),
+            _ => None,
+        };
+        if let Some(lacking) = lacking {
+            return Err(Failure::BadInput(anyhow!(lacking)));
+        }
+        return Photograph { file: png, of: &arguments.picture }.take(listener, json);
+    }
     let page = page::page()?;
     let stop = interrupt::flag()?;
     let server = Server::start(listener, page, json, None).context("nothing can be served").or_failed()?;
     let address = server.address();
-    say(format_args!("{name}:{told} {address}"));
-    say("Ctrl-C ends it.");
+    if schedule.is_none() {
+        say(format_args!("{name}: has no schedule, so its hinges open in the order of the tree"));
+    }
+    say(format_args!("{name}: {address} (Ctrl-C ends it)"));
     // Whoever started this program waits for that line.
     io::stdout().flush().or_failed()?;
     if !arguments.no_open && !browser::open(&address) {
@@ -164,4 +153,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         std::thread::sleep(PATIENCE);
     }
     Ok(())
+}
+
+/// The schedule that is shown, which the plan holds from then on; none where there is none.
+fn schedule(arguments: &Arguments, plan: &mut Plan) -> Result<Option<Schedule>, Failure> {
+    if plan.schedule.is_none() && arguments.schedule.is_none() {
+        return Ok(None);
+    }
+    let beside = arguments.schedule.as_deref();
+    let (file, schedule) = input::unverified_schedule(&arguments.plan, plan, beside)?;
+    if schedule.direction() == Direction::Fold {
+        return Err(Failure::BadInput(anyhow!(
+            "{file}: is a way back; show the schedule that it was made of, and go through that backwards"
+        )));
+    }
+    let (of, own) = (schedule.plan_crc64, Fingerprint::of(plan));
+    if of != own {
+        let name = arguments.plan.display();
+        return Err(Failure::BadInput(anyhow!("{file}: is for plan {of}, expected plan {own} of {name}")));
+    }
+    plan.schedule = Some(schedule.to_json().or_failed()?);
+    Ok(Some(schedule))
 }

@@ -2,11 +2,12 @@
 
 use super::browser::{self, Unseen};
 use super::page::page;
-use super::server::{self, Brought, Server};
+use super::server::{Brought, Server};
 use super::{Colour, PictureArguments};
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
 use anyhow::{Context, anyhow};
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -26,12 +27,12 @@ pub(super) struct Photograph<'a> {
 
 impl Photograph<'_> {
     /// Takes it.
-    pub(super) fn take(&self, scene: Vec<u8>) -> Result<(), Failure> {
+    pub(super) fn take(&self, listener: TcpListener, scene: Vec<u8>) -> Result<(), Failure> {
         let program = self.browser()?;
         let (sender, receiver) = channel();
-        let listener = server::bind(0).context("no port of this computer is free").or_failed()?;
-        let server =
-            Server::start(listener, page()?, scene, Some(sender)).context("nothing can be served").or_failed()?;
+        let server = Server::start(listener, page()?, scene, Some(sender))
+            .context("nothing can be served")
+            .or_failed()?;
         let address = format!("{}#{}", server.address(), self.wishes());
         let name = program.display();
         let mut browser = Unseen::open(&program, &address, self.of.size)
