@@ -13,7 +13,7 @@ test("the book's pictures", async () => {
   const images = join(repository, "docs/src/images");
   zygote(folder, "plan", join(repository, "models/fish92.txt"), "--piles", "4", "--free", "ideal", "-o", "fish.fold");
   zygote(folder, "schedule", "fish.fold", "--rig", join(repository, "models/rigs/sma-160.toml"));
-  const apart = ["--at", "0", "--explode", "0.55", "--colour", "time", "--size", "600x480"];
+  const apart = ["--explode", "0.7", "--colour", "hinge", "--size", "640x440"];
   zygote(folder, "view", "fish.fold", "--png", join(images, "viewer-apart.png"), ...apart, "--browser", process.env["BROWSER_PROGRAM"]!);
   const shown = await show(folder, "fish.fold");
   try {
