@@ -7,9 +7,11 @@ import pytest
 
 from zygote_wire import cobs, codes, commands, frames, postcard, reports
 from zygote_wire.codes import Faulted, Refused
-from zygote_wire.commands import Heat, Release, Step, Turn
+from zygote_wire.commands import Heat, Pulse, Release, Step, Turn
 from zygote_wire.frames import Frame, Kind
 from zygote_wire.hello import SCHEMA, Hello, Limits, Settings
+
+pytestmark = pytest.mark.smoke
 
 BOOK = Path(__file__).parent.parent / "docs/src"
 PAGE = (BOOK / "protocol.md").read_text()
@@ -26,6 +28,7 @@ STEPS = (
     Step(1, (), Turn(2, 500, 1_500, 900, 150, 400, 50)),
     Step(2, (), Release(0, 200, 500, 1_000)),
 )
+PULSED = (Step(4, (), Pulse(3, 250, 20_000, 9_500, 12_000, 4_500, 500, 150, 5_000, 200)),)
 MOTIONS = (
     reports.Motion(0, reports.Heating(-5, 1_000)),
     reports.Motion(1, reports.Holding(9_600, 400)),
@@ -62,6 +65,8 @@ MESSAGES = [
     (commands.Request, request(commands.LastRun())),
     (commands.Request, request(commands.AskSettings())),
     (commands.Request, request(commands.Configure(SETTINGS))),
+    (commands.Request, request(commands.Steps(0, PULSED))),
+    (commands.Request, request(commands.Readings(16))),
     (commands.Urgent, commands.Urgent.STOP),
     (reports.Report, response(reports.Done())),
     (reports.Report, response(STATUS)),
@@ -78,6 +83,12 @@ MESSAGES = [
     (reports.Report, response(reports.LastRun(None))),
     (reports.Report, response(reports.LastRun(SNAPSHOT))),
     (reports.Report, response(reports.SettingsReport(300, SETTINGS, SETTINGS))),
+    (
+        reports.Report,
+        response(
+            reports.Readings(300, 4_950, 620, 16, (reports.Reading(2_345, 250), reports.Reading(None, 0)))
+        ),
+    ),
     (reports.Report, event(reports.Entered(reports.State.RUNNING))),
     (reports.Report, event(reports.StepStarted(1))),
     (reports.Report, event(reports.StepOpened(1))),

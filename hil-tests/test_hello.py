@@ -5,11 +5,15 @@ import time
 import pytest
 
 from bench import run
+from bench.bench_file import Target
 from zygote_wire import commands, postcard, reports
 from zygote_wire.codes import Faulted
 from zygote_wire.frames import Frame, Kind
 from zygote_wire.hello import SCHEMA, VERSION, Hello, HelloReply, granted_session
 from zygote_wire.link import Link, SessionLost
+
+
+pytestmark = pytest.mark.smoke
 
 
 def answer(port, frame: Frame) -> tuple[Frame, HelloReply]:
@@ -20,6 +24,7 @@ def answer(port, frame: Frame) -> tuple[Frame, HelloReply]:
     return answers[0], postcard.decode(HelloReply, answers[0].payload)
 
 
+@pytest.mark.brief
 def test_a_hello_is_answered_with_versions_schema_channels_limits_and_boot(port, session):
     frame, reply = answer(port, Frame(Kind.HELLO, session, payload=postcard.encode(Hello())))
     assert frame.session == session
@@ -47,6 +52,7 @@ def test_a_program_outlives_its_session(link, program):
     assert (status.state, status.run) == (reports.State.LOADED, run.RUN)
 
 
+@pytest.mark.faults
 def test_another_session_turns_off_what_one_had_armed(link, program, mcu):
     run.load(link, program)
     run.arm(link, program, mcu)
@@ -97,13 +103,16 @@ def test_frames_of_a_session_that_is_not_open_are_answered_with_reset(link):
     link.status()
 
 
-def test_the_boot_number_and_the_clock_of_an_mcu_that_goes_on_stay(link):
+def test_the_boot_number_and_the_clock_of_an_mcu_that_goes_on_stay(link, bench):
     before, start = link.hello().identity.boot, time.monotonic()
     first = link.status().at
     link.live(1.0)
     passed = (link.status().at - first) / 1e6
     assert link.hello().identity.boot == before
-    assert passed == pytest.approx(time.monotonic() - start, abs=0.3)
+    on_the_wall = time.monotonic() - start
+    # An emulated chip's clock is behind where the machine is busy, never ahead.
+    behind = on_the_wall if bench.target is Target.EMULATOR else 0.3
+    assert on_the_wall - behind <= passed <= on_the_wall + 0.3
 
 
 def assert_unknown(port, session: int) -> None:

@@ -1,5 +1,6 @@
 """What a bad line does: noise, repetitions, torn and oversized frames."""
 
+import collections
 import random
 import time
 
@@ -9,9 +10,11 @@ from bench import run
 from zygote_wire import commands, postcard, reports
 from zygote_wire.codes import Refused
 from zygote_wire.frames import LONGEST_PAYLOAD, Frame, Kind
-from zygote_wire.link import Link, SessionLost
+from zygote_wire.link import WINDOW, Link, SessionLost
 from zygote_wire.postcard import varint
 from zygote_wire.reports import Rejected, State
+
+pytestmark = pytest.mark.smoke
 
 UNKNOWN_KIND = 9
 
@@ -31,6 +34,7 @@ def test_noise_on_an_idle_line_leaves_the_mcu_able_to_answer(port, session, rng)
     assert link.status().state == State.IDLE
 
 
+@pytest.mark.faults
 def test_noise_between_frames_of_a_run_changes_nothing(link, program, mcu, rng):
     for step in (
         lambda: run.load(link, program),
@@ -54,6 +58,7 @@ def test_a_line_that_loses_a_third_of_all_frames_carries_a_program(link, program
     assert (status.state, status.run) == (State.LOADED, run.RUN)
 
 
+@pytest.mark.faults
 def test_a_line_that_sends_everything_twice_executes_once(link, program, mcu):
     once = link.port.send
 
@@ -99,6 +104,20 @@ def test_a_gap_is_asked_for_with_a_nack(port, session):
     heard = port.listen(0.3)
     assert [frame.ack for frame in heard if frame.kind == Kind.NACK] == [0]
     assert not [frame for frame in heard if frame.kind == Kind.DATA]
+
+
+def test_all_that_was_not_heard_is_said_again_again_and_again(port, session):
+    link = Link(port, session)
+    link.hello()
+    for number in range(WINDOW):
+        status = commands.Request(number, commands.Status())
+        port.send(Frame(Kind.DATA, link.session, seq=number, payload=postcard.encode(status)))
+    heard = collections.Counter()
+    # Some of them mean the same loss as the one before.
+    for _ in range(5 * WINDOW):
+        port.send(Frame(Kind.NACK, link.session))
+        heard.update(frame.seq for frame in port.listen(0.03) if frame.kind == Kind.DATA)
+    assert sorted(heard) == list(range(WINDOW)) and min(heard.values()) >= 3
 
 
 def test_torn_frames_are_not_taken_and_the_next_frame_is(port):

@@ -6,13 +6,14 @@ from pathlib import Path
 import pytest
 
 from bench import program as programs
-from bench.host import Deploy
+from bench import target as targets
+from bench.bench_file import Target
 from bench.program import Program
-from bench.simulator import simulator
 from zygote_wire.codes import Faulted
 from zygote_wire.link import Link
-from zygote_wire.port import Port
 from zygote_wire.reports import State
+
+pytestmark = pytest.mark.faults
 
 REPOSITORY = Path(__file__).parent.parent
 SCENARIOS = REPOSITORY / "sim/scenarios"
@@ -26,11 +27,12 @@ def cube(zygote, tmp_path_factory) -> Program:
 
 
 @pytest.fixture
-def staged(request, zygote, cube, pytestconfig) -> Iterator[str]:
+def staged(request, zygote, cube, bench) -> Iterator[str]:
     """The device of a simulated board on which the scenario of this test takes its course."""
-    if pytestconfig.getoption("--port"):
+    if bench.target is Target.PORT:
         pytest.skip("a board's thermistors are not broken by a file")
-    with simulator(zygote, cube.rig_file, cube.plan, SCENARIOS / f"{request.param}.toml") as device:
+    scenario = SCENARIOS / f"{request.param}.toml"
+    with targets.simulated(zygote, bench, cube.rig_file, cube.plan, scenario) as device:
         yield device
 
 
@@ -43,15 +45,12 @@ def staged(request, zygote, cube, pytestconfig) -> Iterator[str]:
     ],
     indirect=["staged"],
 )
-def test_a_fault_of_a_scenario_ends_the_run_of_the_real_host(
-    zygote, cube, staged, code, session, baud, tmp_path
-):
-    ended, out, error = Deploy(zygote, cube, staged, tmp_path).finish()
+def test_a_fault_of_a_scenario_ends_the_run_of_the_real_host(deploy, cube, staged, code, session, dial):
+    ended, out, error = deploy(cube, staged).finish()
     assert ended == 1, error
     assert f"F{code.value + 1:02}" in out
-    link = Link(Port(staged, baud), session)
+    link = Link(dial(staged), session)
     link.hello()
     status = link.status()
     assert (status.state, status.fault.code) == (State.SAFE, code)
     assert (status.heaters_on, status.main_switch) == (0, False)
-    link.port.close()

@@ -10,6 +10,9 @@ from zygote_wire.link import CommandRefused, Link
 from zygote_wire.reports import Done, Refusal, SettingsReport
 
 
+pytestmark = pytest.mark.smoke
+
+
 def settings(link: Link) -> SettingsReport:
     """What the board keeps."""
     return link.request(commands.AskSettings())

@@ -12,7 +12,10 @@ from bench.program import Program
 class Deploy:
     """One run of the real host."""
 
-    def __init__(self, zygote: Path, program: Program, device: str, folder: Path, clear: bool = True):
+    def __init__(
+        self, zygote: Path, folder: Path, patience: float, program: Program, device: str, clear: bool = True
+    ):
+        self.patience = patience
         self.log = folder / "events.jsonl"
         self.report_file = folder / "report.json"
         arguments: list[str | Path] = [zygote, "deploy", program.plan, "--rig", program.rig_file, "--port", device]
@@ -22,7 +25,7 @@ class Deploy:
 
     def wait_for_opened(self, count: int, patience: float = 30.0) -> None:
         """Waits until so many hinges are open."""
-        end = time.monotonic() + patience
+        end = time.monotonic() + patience * self.patience
         while self.opened() < count:
             if time.monotonic() > end or self.process.poll() is not None:
                 raise AssertionError(f"{self.opened()} hinges opened, expected {count}: {self.finish()}")
@@ -35,11 +38,11 @@ class Deploy:
     def finish(self, patience: float = 60.0) -> tuple[int, str, str]:
         """Waits for the end: exit code, output, error output."""
         try:
-            out, error = self.process.communicate(timeout=patience)
+            out, error = self.process.communicate(timeout=patience * self.patience)
         except subprocess.TimeoutExpired:
             self.process.kill()
             out, error = self.process.communicate()
-            raise AssertionError(f"still running after {patience} s\n{out}\n{error}") from None
+            raise AssertionError(f"still running after {patience * self.patience} s\n{out}\n{error}") from None
         return self.process.returncode, out, error
 
     def report(self) -> dict[str, Any]:

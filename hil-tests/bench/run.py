@@ -1,12 +1,15 @@
 """The verbs of a run, over a link."""
 
 import time
+from collections.abc import Callable
 
 from bench.program import Program
-from zygote_wire import commands, reports
+from zygote_wire import commands, postcard, reports
 from zygote_wire.commands import STEPS_PER_COMMAND, Step
+from zygote_wire.frames import Kind
 from zygote_wire.hello import HelloReply
-from zygote_wire.link import CommandRefused, Link
+from zygote_wire.link import CommandRefused, Link, NoAnswer
+from zygote_wire.port import Port
 
 RUN = 77
 LIFETIME = 10_000
@@ -57,10 +60,25 @@ def wait_for_heat(link: Link) -> None:
     assert status.heaters_on > 0
 
 
+def silence(port: Port, seconds: float, but: Callable[[], None] = lambda: None) -> None:
+    """Says nothing but this until an MCU with an open session has told by telemetry that its clock moved on by so much."""
+    first: int | None = None
+    end = time.monotonic() + (seconds + 5) * port.patience
+    while time.monotonic() < end:
+        but()
+        for frame in port.receive(0.1):
+            if frame.kind == Kind.TELEMETRY:
+                at = postcard.decode(reports.Telemetry, frame.payload).at
+                first = at if first is None else first
+                if at >= first + seconds * 1e6:
+                    return
+    raise NoAnswer(f"{port.device}: no telemetry of {seconds} s")
+
+
 def watch(link: Link, patience: float) -> list[reports.Event]:
     """The events of a run up to its end."""
     events: list[reports.Event] = []
-    end = time.monotonic() + patience
+    end = time.monotonic() + patience * link.port.patience
     while not events or events[-1].kind != reports.Entered(reports.State.FINISHED):
-        events.append(link.notice(reports.Event, patience=end - time.monotonic()))
+        events.append(link.notice(reports.Event, patience=(end - time.monotonic()) / link.port.patience))
     return events

@@ -29,6 +29,7 @@ class Refused(enum.IntEnum):
     UNREADABLE = 20
     NOT_STORED = 21
     STORING = 22
+    PULSE_DUTY = 23
 
 
 class Faulted(enum.IntEnum):

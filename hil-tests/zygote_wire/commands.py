@@ -52,12 +52,28 @@ class Release:
 
 
 @dataclasses.dataclass(frozen=True)
+class Pulse:
+    """Heat an SMA hinge at constant power for a while, let it cool."""
+
+    channel: U16
+    duty: U16
+    duration: U32
+    target: I16
+    max_temperature: I16
+    cool: I16
+    rest: U32
+    min_gain: I16
+    gain_window: U32
+    current: U32
+
+
+@dataclasses.dataclass(frozen=True)
 class Step:
     """The motion of one hinge."""
 
     hinge: U16
     after: tuple[U16, ...]
-    action: Heat | Turn | Release
+    action: Heat | Turn | Release | Pulse
 
 
 def program_crc(steps: Iterable[Step]) -> int:
@@ -143,6 +159,13 @@ class Configure:
     settings: Settings
 
 
+@dataclasses.dataclass(frozen=True)
+class Readings:
+    """What do the heaters' thermistors read, from this channel on?"""
+
+    first: U16
+
+
 Command = (
     Status
     | Progress
@@ -156,6 +179,7 @@ Command = (
     | LastRun
     | AskSettings
     | Configure
+    | Readings
 )
 
 

@@ -6,8 +6,8 @@ from typing import Annotated
 
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
-VERSION = 3
-SCHEMA = 0x895D4743
+VERSION = 4
+SCHEMA = 0x74341209
 
 
 class ResetCause(enum.IntEnum):

@@ -74,7 +74,7 @@ class Link:
     def hello(self, hello: Hello = OURS, patience: float = PATIENCE) -> HelloReply:
         """Opens the session, or asks again who is there."""
         frame = Frame(Kind.HELLO, self.asked, payload=postcard.encode(hello))
-        end = time.monotonic() + patience
+        end = time.monotonic() + patience * self.port.patience
         while time.monotonic() < end:
             self.port.send(frame)
             again = time.monotonic() + HELLO_EVERY
@@ -134,7 +134,7 @@ class Link:
 
     def notice(self, kind: type[N], wanted: Callable[[N], bool] = lambda _: True, patience: float = PATIENCE) -> N:
         """The next piece of news of this kind that is wanted; earlier news is dropped."""
-        end = time.monotonic() + patience
+        end = time.monotonic() + patience * self.port.patience
         while True:
             while self.notices:
                 notice = self.notices.popleft()
@@ -151,13 +151,15 @@ class Link:
         self._transmit()
 
     def live(self, seconds: float) -> None:
-        """Does nothing but keep the link alive."""
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0:
-            self.pump(left)
+        """Does nothing but keep the link alive, while the MCU's clock moves on by so much."""
+        start = self.status().at
+        while (left := seconds - (self.status().at - start) / 1e6) > 0:
+            end = time.monotonic() + left
+            while (wait := end - time.monotonic()) > 0:
+                self.pump(wait)
 
     def _wait(self, done: Callable[[], bool], what: str) -> None:
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + PATIENCE * self.port.patience
         while not done():
             if time.monotonic() >= end:
                 raise NoAnswer(f"{self.port.device}: {what} didn't come within {PATIENCE} s")

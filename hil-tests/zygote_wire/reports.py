@@ -102,7 +102,26 @@ class SettingsReport:
     compiled: Settings
 
 
-Reply = Done | Status | Progress | LastRun | SettingsReport
+@dataclasses.dataclass(frozen=True)
+class Reading:
+    """One heater and its thermistor; no temperature where it can't be believed."""
+
+    temperature: I16 | None
+    duty: U16
+
+
+@dataclasses.dataclass(frozen=True)
+class Readings:
+    """Heaters from `first` on."""
+
+    at: U64
+    supply: U32
+    current: U32
+    first: U16
+    channels: tuple[Reading, ...]
+
+
+Reply = Done | Status | Progress | LastRun | SettingsReport | Readings
 
 
 @dataclasses.dataclass(frozen=True)

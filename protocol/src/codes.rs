@@ -115,6 +115,8 @@ codes! {
             "", AS_BEFORE, "try again; if that doesn't help, the flash is worn: replace the board";
         Storing = 23, "settings are being stored",
             "", AS_BEFORE, "wait for their answer";
+        PulseDuty = 24, "a pulse's power isn't between 1 and 1,000 per mille",
+            "at: step; nearest bound; power, per mille", AS_BEFORE, "ask for a power within the bounds";
     }
 }
 

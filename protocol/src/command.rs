@@ -14,8 +14,9 @@
 //! | `LastRun` | any | none |
 //! | `Settings` | any | none |
 //! | `Configure` | any but Armed, Running | settings are written down for good, then in force |
+//! | `Readings` | any | none |
 
-use crate::{Fault, Limits, Micros, Millis, RefusalCode, Settings, SettingsReport, Snapshot, Step};
+use crate::{Fault, Limits, Micros, Millis, Readings, RefusalCode, Settings, SettingsReport, Snapshot, Step};
 use heapless::{String, Vec};
 use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
@@ -96,6 +97,11 @@ pub enum Command {
     Settings,
     /// Keep these settings for good. Answered once they are stored.
     Configure(Settings),
+    /// What do the heaters' thermistors read, from this channel on? Answered by [`Reply::Readings`].
+    Readings {
+        /// First channel of interest.
+        first: u16,
+    },
 }
 
 /// The answer to a [`Request`].
@@ -125,6 +131,8 @@ pub enum Reply {
     LastRun(Option<Snapshot>),
     /// To [`Command::Settings`].
     Settings(SettingsReport),
+    /// To [`Command::Readings`].
+    Readings(Readings),
 }
 
 /// Why a command was refused; it then changed nothing.

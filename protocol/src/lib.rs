@@ -22,6 +22,7 @@ mod frame;
 mod hello;
 mod limits;
 mod link;
+mod readings;
 mod report;
 pub mod schema;
 mod settings;
@@ -41,8 +42,9 @@ pub use hello::{
 };
 pub use limits::{LimitName, Limits};
 pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};
+pub use readings::{READINGS_PER_REPLY, Reading, Readings};
 pub use report::{Event, EventKind, Fault, Motion, Phase, Report, TELEMETRY_MOTIONS, Telemetry, Urgent};
 pub use settings::{Settings, SettingsReport, TooLax};
 pub use snapshot::{RETAINED_WORDS, Retained, SNAPSHOT_STEPS, Snapshot};
-pub use step::{Action, Heat, MAX_AFTER, Release, Step, Turn, program_crc};
+pub use step::{Action, Heat, MAX_AFTER, Pulse, Release, Step, Turn, program_crc};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis, Millivolts};

@@ -28,6 +28,8 @@ pub enum Action {
     Turn(Turn),
     /// Release a spring hinge.
     Release(Release),
+    /// Heat an SMA hinge at constant power for a while, to learn what it is like.
+    Pulse(Pulse),
 }
 
 /// Heat to a temperature, hold it, let cool.
@@ -87,6 +89,49 @@ pub struct Release {
     pub current: Milliamps,
 }
 
+/// Heat at constant power until the time is over or a temperature is reached, whichever comes first; let cool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Schema)]
+pub struct Pulse {
+    /// Heater and thermistor.
+    pub channel: u16,
+    /// Power, 1 to 1000 per mille.
+    pub duty: u16,
+    /// Longest time with the heater on; then the hinge counts as opened.
+    pub duration: Millis,
+    /// Temperature that ends it earlier.
+    pub target: CentiCelsius,
+    /// Highest temperature; reaching it is a fault.
+    pub max_temperature: CentiCelsius,
+    /// Temperature below which the hinge counts as cooled.
+    pub cool: CentiCelsius,
+    /// Shortest time off before the step is done.
+    pub rest: Millis,
+    /// Least rise in temperature within [`Self::gain_window`] at this power (S6).
+    pub min_gain: CentiCelsius,
+    /// Time from switching on to the check of the rise.
+    pub gain_window: Millis,
+    /// Current at full power: so much flows while it is on, if not all the time.
+    pub current: Milliamps,
+}
+
+impl Pulse {
+    /// The [`Heat`] whose limits a pulse keeps: on for its time at most, and held for none.
+    pub const fn heat(&self) -> Heat {
+        Heat {
+            channel: self.channel,
+            target: self.target,
+            hold: Millis(0),
+            max_on: self.duration,
+            max_temperature: self.max_temperature,
+            cool: self.cool,
+            rest: self.rest,
+            min_gain: self.min_gain,
+            gain_window: self.gain_window,
+            current: self.current,
+        }
+    }
+}
+
 impl Action {
     /// Current that the supply must have to spare when the step starts.
     pub const fn current(&self) -> Milliamps {
@@ -94,6 +139,7 @@ impl Action {
             Self::Heat(heat) => heat.current,
             Self::Turn(turn) => turn.current,
             Self::Release(release) => release.current,
+            Self::Pulse(pulse) => pulse.current,
         }
     }
 }

@@ -12,11 +12,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use zygote_protocol::{Micros, Millis};
 
-/// Most that the board's clock moves on at once. On a machine too busy to keep up, the board runs slow instead of
+/// Most that the board's clock catches up with. On a machine too busy to keep up, the board runs slow instead of
 /// missing a host that was just as held up.
-const MOST_AT_ONCE: Millis = Millis(50);
+const MOST_BEHIND: Millis = Millis(50);
+/// Most that the board's clock moves on between two looks at the line: a board that runs slow still answers soon.
+const MOST_AT_ONCE: Millis = Millis(2);
 /// Longest wait for bytes before the board's clock is moved on.
 const SLICE: Timespec = Timespec { tv_sec: 0, tv_nsec: 2_000_000 };
+/// No wait, when there is time to catch up with.
+const AT_ONCE: Timespec = Timespec { tv_sec: 0, tv_nsec: 0 };
 
 /// Why serving ended.
 #[derive(Debug, thiserror::Error)]
@@ -79,24 +83,27 @@ impl Pty {
     /// The terminal broke.
     pub fn serve<D: Device>(&self, board: &mut D, stop: &AtomicBool) -> Result<(), ServeError> {
         let mut wall = Instant::now();
+        let mut behind = 0;
         let mut buffer = [0; 4096];
         let mut out = Vec::new();
         while !stop.load(Ordering::Relaxed) {
             let mut watched = [PollFd::new(&self.master, PollFlags::IN)];
-            match poll(&mut watched, Some(&SLICE)) {
+            match poll(&mut watched, Some(if behind == 0 { &SLICE } else { &AT_ONCE })) {
                 Ok(_) | Err(rustix::io::Errno::INTR) => {}
                 Err(errno) => return Err(terminal("waiting")(errno)),
             }
-            let readable = watched.iter().any(|fd| fd.revents().contains(PollFlags::IN));
-            let before = std::mem::replace(&mut wall, Instant::now());
-            let elapsed = u64::try_from(wall.duration_since(before).as_micros()).unwrap_or(u64::MAX);
-            let until = Micros(board.now().0.saturating_add(elapsed.min(MOST_AT_ONCE.to_micros())));
-            while board.now() < until {
-                board.advance(until).map_err(|error| ServeError::Device(Box::new(error)))?;
-            }
-            if readable {
+            if watched.iter().any(|fd| fd.revents().contains(PollFlags::IN)) {
                 let count = rustix::io::read(&self.master, &mut buffer[..]).map_err(terminal("reading"))?;
                 board.receive(buffer.get(..count).unwrap_or_default());
+            }
+            let before = std::mem::replace(&mut wall, Instant::now());
+            let elapsed = u64::try_from(wall.duration_since(before).as_micros()).unwrap_or(u64::MAX);
+            behind = elapsed.saturating_add(behind).min(MOST_BEHIND.to_micros());
+            let step = behind.min(MOST_AT_ONCE.to_micros());
+            behind -= step;
+            let until = Micros(board.now().0.saturating_add(step));
+            while board.now() < until {
+                board.advance(until).map_err(|error| ServeError::Device(Box::new(error)))?;
             }
             out.clear();
             board.transmit(&mut out);

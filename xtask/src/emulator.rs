@@ -12,7 +12,6 @@ pub(crate) fn run() -> Result<()> {
     ensure!(program.is_file(), "{} is missing: cargo xtask firmware", program.display());
     let nextest = tools::from_crates_io("cargo-nextest", "^0.9", &[])?;
     let mut command = tools::command(nextest);
-    command.args(["nextest", "run", "--no-fail-fast", "--run-ignored", "only"]);
-    command.args(["--package", "zygote-emulator", "--package", "zygote-rehearsal"]);
-    tools::run(command.args(["--test", "emulated"]).env("ZYGOTE_BOARD_ELF", &program))
+    command.args(["nextest", "run", "--workspace", "--no-fail-fast", "--run-ignored", "only"]);
+    tools::run(command.args(["-E", "binary(emulated)"]).env("ZYGOTE_BOARD_ELF", &program))
 }

@@ -34,7 +34,7 @@ const PARTS: &[Part] = &[
     Part { verb: "unit", about: "unit and integration tests (nextest)", run: tests::unit },
     Part { verb: "doctest", about: "examples in the documentation", run: tests::doc },
     Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
-    Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: hil::run },
+    Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: || hil::run(&[]) },
     Part { verb: "browser", about: "the viewer's page, in a real browser", run: viewer::test },
     Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },
     Part {
@@ -47,6 +47,7 @@ const PARTS: &[Part] = &[
         about: "the board's program, as just built, on an emulated chip",
         run: emulator::run,
     },
+    Part { verb: "hil-brief", about: "a minute of the serial suite on the emulated board", run: hil::brief },
 ];
 
 fn main() -> ExitCode {
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
             "mutants" => return told(mutants::run(options)),
             "figures" => return told(figures::run(options)),
             "viewer" => return told(viewer::run(options)),
+            "hil" => return told(hil::run(options)),
             _ => {}
         }
     }
@@ -101,7 +103,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  viewer [--test]\n            the page of `zygote view`, which the next build of zygote embeds; its tests\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  hil [OPTION ..]\n            the serial suite; OPTIONs go to pytest: --target emulator, --level smoke\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  viewer [--test]\n            the page of `zygote view`, which the next build of zygote embeds; its tests\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

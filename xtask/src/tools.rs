@@ -75,6 +75,20 @@ pub(crate) fn from_crates_io(name: &str, version: &str, install_options: &[&str]
     Ok(built)
 }
 
+/// A program of this workspace, built along with all tests: any smaller choice of packages gives some dependencies other features,
+/// and has all that rests on them built a second time.
+///
+/// # Errors
+/// When the workspace doesn't build.
+pub(crate) fn built(program: &str) -> Result<PathBuf> {
+    let target = root().join("target");
+    run(cargo()
+        .args(["build", "--workspace", "--bins", "--tests", "--target-dir"])
+        .arg(&target)
+        .current_dir(root()))?;
+    Ok(target.join("debug").join(program).with_extension(env::consts::EXE_EXTENSION))
+}
+
 /// Installs Debian packages where that is possible.
 ///
 /// # Errors

@@ -23,10 +23,11 @@ use crate::supply_guard::SupplyGuard;
 use crate::thermal_guard::ThermalGuard;
 use crate::trip::Trip;
 use zygote_protocol::{
-    Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Hello, HelloReply, Limits,
-    Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Received,
-    RefusalCode, Report, Request, Response, Settings, Snapshot, State, StepState, Telemetry, Urgent, VERSION,
-    VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id, peek_versions, schema,
+    Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Heat, Hello, HelloReply,
+    Limits, Link, LinkCounters, MAX_PAYLOAD, Micros, Milliamps, Millis, Millivolts, NO_SESSION, Pulse,
+    Received, RefusalCode, Report, Request, Response, Settings, Snapshot, State, StepState, Telemetry,
+    Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id, peek_versions,
+    schema,
 };
 
 /// Time between two telemetry messages.
@@ -56,10 +57,10 @@ pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize,
     /// Sessions that were opened.
     openings: u32,
     /// Time of the latest control tick.
-    ticked: Micros,
+    pub(crate) ticked: Micros,
     telemetry_due: Micros,
-    supply: Millivolts,
-    current: Milliamps,
+    pub(crate) supply: Millivolts,
+    pub(crate) current: Milliamps,
 }
 
 impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEPS: usize>
@@ -298,9 +299,13 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
 
     /// Gives every guard its reading; a fitted heater without one reads as open.
     fn sample(&mut self, inputs: &Inputs<'_>) {
+        let is_energised = self.mode.is_energised();
         let fitted = usize::from(self.config.channels.heaters);
         let readings = inputs.thermistors.iter().copied().chain(core::iter::repeat(u16::MAX));
         for (guard, counts) in self.guards.iter_mut().zip(readings).take(fitted) {
+            if !is_energised {
+                guard.forgive();
+            }
             guard.sample(counts, &self.config.thermistor);
         }
     }
@@ -344,11 +349,15 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
     fn check_heaters(&mut self, now: Micros, limits: &Limits) -> Result<(), Fault> {
         let steps = self.program.steps();
         for ((at, step), state) in (0..).zip(steps).zip(self.sequencer.states()) {
-            let Action::Heat(heat) = step.action else { continue };
-            let Some(guard) = self.guards.get_mut(usize::from(heat.channel)) else { continue };
+            let (Action::Heat(Heat { channel, max_temperature, .. })
+            | Action::Pulse(Pulse { channel, max_temperature, .. })) = step.action
+            else {
+                continue;
+            };
+            let Some(guard) = self.guards.get_mut(usize::from(channel)) else { continue };
             let driven = state == StepState::Moving;
-            let most = heat.max_temperature.min(limits.max_temperature);
-            guard.check(driven, most).map_err(|trip| trip.at(now, Some(at), Some(heat.channel)))?;
+            let most = max_temperature.min(limits.max_temperature);
+            guard.check(driven, most).map_err(|trip| trip.at(now, Some(at), Some(channel)))?;
         }
         Ok(())
     }

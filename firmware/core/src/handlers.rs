@@ -5,8 +5,10 @@ use crate::io::{Duty, Outputs};
 use crate::mode::Mode;
 use crate::program::refuse;
 use crate::settings::limit_number;
+use crate::thermal_guard::ThermalGuard;
 use zygote_protocol::{
-    Command, Limits, Micros, Millis, Refusal, RefusalCode, Reply, RigId, Settings, State, Status,
+    Command, Limits, Micros, Millis, READINGS_PER_REPLY, Reading, Readings, Refusal, RefusalCode, Reply,
+    RigId, Settings, State, Status,
 };
 
 /// Longest time that an arming may wait for its start.
@@ -33,6 +35,7 @@ pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS
         Command::Clear => clear(core, now),
         Command::LastRun => Ok(Reply::LastRun(core.before.clone())),
         Command::Settings => Ok(core.keeper.report(now, &core.config)),
+        Command::Readings { first } => Ok(Reply::Readings(readings(core, first))),
         Command::Configure(settings) => return configure(core, id, settings).err().map(Err),
     })
 }
@@ -75,6 +78,26 @@ fn progress<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
 ) -> Reply {
     let states = core.sequencer.states().skip(usize::from(first));
     Reply::Progress { first, steps: states.take(zygote_protocol::PROGRESS_PER_REPLY).collect() }
+}
+
+/// As of the latest tick: when the thermistors were read and the power was set.
+fn readings<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
+    core: &Core<H, S, R, STEPS>,
+    first: u16,
+) -> Readings {
+    let fitted = usize::from(core.channels().heaters);
+    let reading = |(guard, duty): (&ThermalGuard, &Duty)| Reading {
+        temperature: guard.believed(),
+        duty: duty.per_mille(),
+    };
+    let channels = core.guards.iter().zip(&core.outputs.heaters).take(fitted).skip(usize::from(first));
+    Readings {
+        at: core.ticked,
+        supply: core.supply,
+        current: core.current,
+        first,
+        channels: channels.map(reading).take(READINGS_PER_REPLY).collect(),
+    }
 }
 
 fn upload<const H: usize, const S: usize, const R: usize, const STEPS: usize>(

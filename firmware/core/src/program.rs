@@ -7,9 +7,10 @@
 //! ```
 
 use crate::config::Config;
+use crate::io::Duty;
 use heapless::{String, Vec};
 use zygote_protocol::{
-    Action, CentiCelsius, Channels, Heat, Limits, Refusal, RefusalCode, Step, Turn, program_crc,
+    Action, CentiCelsius, Channels, Heat, Limits, Pulse, Refusal, RefusalCode, Step, Turn, program_crc,
 };
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,7 +143,7 @@ impl<const STEPS: usize> Program<STEPS> {
 /// Kind and channel: what two steps can't share.
 fn output(action: &Action) -> (u8, u16) {
     match action {
-        Action::Heat(heat) => (0, heat.channel),
+        Action::Heat(Heat { channel, .. }) | Action::Pulse(Pulse { channel, .. }) => (0, *channel),
         Action::Turn(turn) => (1, turn.channel),
         Action::Release(release) => (2, release.channel),
     }
@@ -157,7 +158,9 @@ fn check_order(at: u16, step: &Step) -> Result<(), Refusal> {
 
 fn check_channel(at: u16, step: &Step, channels: Channels) -> Result<(), Refusal> {
     let (count, channel) = match step.action {
-        Action::Heat(heat) => (channels.heaters, heat.channel),
+        Action::Heat(Heat { channel, .. }) | Action::Pulse(Pulse { channel, .. }) => {
+            (channels.heaters, channel)
+        }
         Action::Turn(turn) => (channels.servos, turn.channel),
         Action::Release(release) => (channels.springs, release.channel),
     };
@@ -175,6 +178,7 @@ fn check_motion(at: u16, step: &Step, limits: &Limits, config: &Config) -> Resul
     }
     match &step.action {
         Action::Heat(heat) => check_heat(at, heat, limits),
+        Action::Pulse(pulse) => check_pulse(at, pulse, limits),
         Action::Turn(turn) => check_turn(at, turn, config),
         Action::Release(release) if release.pulse > limits.max_on => {
             Err(refuse(RefusalCode::StepOverOnTime, at, limits.max_on.0, release.pulse.0))
@@ -212,6 +216,14 @@ fn check_heat(at: u16, heat: &Heat, limits: &Limits) -> Result<(), Refusal> {
         return Err(refuse(RefusalCode::StepOverTemperature, at, 1, heat.min_gain.0));
     }
     Ok(())
+}
+
+fn check_pulse(at: u16, pulse: &Pulse, limits: &Limits) -> Result<(), Refusal> {
+    let nearest = pulse.duty.clamp(1, Duty::FULL.per_mille());
+    if pulse.duty != nearest {
+        return Err(refuse(RefusalCode::PulseDuty, at, nearest, pulse.duty));
+    }
+    check_heat(at, &pulse.heat(), limits)
 }
 
 fn check_turn(at: u16, turn: &Turn, config: &Config) -> Result<(), Refusal> {

@@ -63,6 +63,9 @@ impl Motion {
             Action::Heat(heat) => {
                 Self::Heat(SmaHeater::start(heat, instant.now, (instant.temperature)(heat.channel)?))
             }
+            Action::Pulse(pulse) => {
+                Self::Heat(SmaHeater::pulse(pulse, instant.now, (instant.temperature)(pulse.channel)?))
+            }
             Action::Turn(turn) => Self::Turn(ServoMover::start(turn, instant.now)),
             Action::Release(release) => Self::Release(SpringRelease::start(release, instant.now)),
         })

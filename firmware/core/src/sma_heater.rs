@@ -1,10 +1,14 @@
-//! Opens one SMA hinge by heat.
+//! Opens one SMA hinge by heat, or heats it for a while.
 //!
 //! ```text
 //!   start -> Heat --target reached--> Hold --held long enough--> Cool --cool and rested--> Done
-//!              |                       |                           the hinge is open from here on
+//!              |                       |                          ^ the hinge is open from here on
+//!              |                       |                          |
+//!              +--- a pulse: target reached, or its time over ----+
 //!              +-- on for too long, gain or sensor lost: trip (everything off)
 //! ```
+//!
+//! A pulse is heat of constant power that isn't held and that ends with its time; all else that guards heat guards it as well.
 //!
 //! A reading is believed only as long as it follows the power (S5, S6). One that stands still is put to the test: the heater goes off,
 //! and a live thermistor must show it. One that doesn't rise, or falls, while the heater is on has lost the hinge.
@@ -14,7 +18,7 @@
 
 use crate::io::Duty;
 use crate::trip::Trip;
-use zygote_protocol::{CentiCelsius, FaultCode, Heat, Micros, Millis, Phase, StepState};
+use zygote_protocol::{CentiCelsius, FaultCode, Heat, Micros, Millis, Phase, Pulse, StepState};
 
 /// Full power up to the target, none from this far above it on, proportionally less in between: so the target is
 /// passed by any heater that can reach it at all. Narrower, the lag of the thermistor would make it swing.
@@ -62,10 +66,20 @@ struct Still {
     tested: Option<Micros>,
 }
 
+/// What decides the power.
+#[derive(Debug, Clone, Copy)]
+enum Power {
+    /// The distance to the target.
+    Thermostat,
+    /// The host: a pulse.
+    Constant(Duty),
+}
+
 /// One heater at work.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SmaHeater {
     spec: Heat,
+    power: Power,
     state: State,
     still: Still,
     peak: CentiCelsius,
@@ -76,7 +90,12 @@ impl SmaHeater {
     pub(crate) fn start(spec: Heat, now: Micros, cold: CentiCelsius) -> Self {
         let window = Window { since: now, from: cold, gain: spec.min_gain.0, top: cold };
         let still = Still { reading: cold, since: now, tested: None };
-        Self { spec, state: State::Heat { on: now, window }, still, peak: cold, duty: Duty::OFF }
+        let state = State::Heat { on: now, window };
+        Self { spec, power: Power::Thermostat, state, still, peak: cold, duty: Duty::OFF }
+    }
+
+    pub(crate) fn pulse(pulse: Pulse, now: Micros, cold: CentiCelsius) -> Self {
+        Self { power: Power::Constant(Duty::new(pulse.duty)), ..Self::start(pulse.heat(), now, cold) }
     }
 
     pub(crate) fn channel(&self) -> u16 {
@@ -122,12 +141,15 @@ impl SmaHeater {
             self.check_still(now, temperature)?;
         }
         if let State::Heat { on, window } = self.state {
-            if temperature >= self.spec.target {
-                self.state = State::Hold { on, reached: now };
-            } else {
-                let window = self.check_gain(now, window, temperature)?;
-                self.state = State::Heat { on, window };
-            }
+            let reached = temperature >= self.spec.target;
+            let window = if reached { window } else { self.check_gain(now, window, temperature)? };
+            self.state = match self.power {
+                Power::Thermostat if reached => State::Hold { on, reached: now },
+                Power::Constant(_) if reached || now >= on.plus(self.spec.max_on) => {
+                    cooling(now, temperature)
+                }
+                Power::Thermostat | Power::Constant(_) => State::Heat { on, window },
+            };
         }
         if let State::Hold { .. } = self.state {
             self.check_sag(temperature)?;
@@ -135,10 +157,7 @@ impl SmaHeater {
         if let State::Hold { reached, .. } = self.state
             && now >= reached.plus(self.spec.hold)
         {
-            self.state = State::Cool {
-                off: now,
-                window: Window { since: now, from: temperature, gain: COOLING.1, top: temperature },
-            };
+            self.state = cooling(now, temperature);
         }
         if let State::Cool { off, window } = self.state {
             self.state = if temperature > self.spec.cool {
@@ -151,19 +170,25 @@ impl SmaHeater {
         }
         self.duty = match self.state {
             State::Heat { .. } | State::Hold { .. } if self.still.tested.is_some() => Duty::OFF,
-            State::Heat { .. } | State::Hold { .. } => thermostat(self.spec.target, temperature),
+            State::Heat { .. } | State::Hold { .. } => match self.power {
+                Power::Thermostat => thermostat(self.spec.target, temperature),
+                Power::Constant(duty) => duty,
+            },
             State::Cool { .. } | State::Done => Duty::OFF,
         };
         Ok(())
     }
 
+    /// A pulse ends with its time instead.
     fn check_on_time(&self, now: Micros, on: Micros) -> Result<(), Trip> {
         let most = self.spec.max_on;
-        if now < on.plus(most) {
-            return Ok(());
+        match self.power {
+            Power::Thermostat if now >= on.plus(most) => {
+                let milliseconds = i64::try_from(now.since(on) / 1000).unwrap_or(i64::MAX);
+                Err(Trip::new(FaultCode::OnTooLong, milliseconds, most.0))
+            }
+            Power::Thermostat | Power::Constant(_) => Ok(()),
         }
-        let milliseconds = i64::try_from(now.since(on) / 1000).unwrap_or(i64::MAX);
-        Err(Trip::new(FaultCode::OnTooLong, milliseconds, most.0))
     }
 
     /// Puts a reading that stands still to the test, and ends the test once it moves.
@@ -216,6 +241,14 @@ impl SmaHeater {
     }
 }
 
+/// The heater goes off.
+fn cooling(now: Micros, temperature: CentiCelsius) -> State {
+    State::Cool {
+        off: now,
+        window: Window { since: now, from: temperature, gain: COOLING.1, top: temperature },
+    }
+}
+
 /// Holds an opened hinge against how it must cool, and opens the next window when this one is over.
 fn check_cooling(now: Micros, window: Window, temperature: CentiCelsius) -> Result<Window, Trip> {
     if now < window.since.plus(COOLING.0) {
@@ -234,6 +267,9 @@ fn thermostat(target: CentiCelsius, temperature: CentiCelsius) -> Duty {
     let per_mille = i32::from(below) * 1000 / i32::from(BAND);
     Duty::new(u16::try_from(per_mille).unwrap_or(0))
 }
+
+#[cfg(test)]
+mod pulses;
 
 #[cfg(test)]
 mod tests {

@@ -38,6 +38,19 @@ impl ThermalGuard {
         self.last
     }
 
+    /// The last believable temperature, unless what came since makes a fault.
+    pub(crate) fn believed(&self) -> Option<CentiCelsius> {
+        self.last.filter(|_| self.bad < FILTER)
+    }
+
+    /// Starts over after readings that make a fault. For when nothing is energised: the next reading may come through a wire that
+    /// was mended.
+    pub(crate) fn forgive(&mut self) {
+        if self.bad >= FILTER {
+            self.restart();
+        }
+    }
+
     /// Forgets what was learned, at arming: the hinge may have been exchanged.
     pub(crate) fn restart(&mut self) {
         *self = Self::NEW;

@@ -1,92 +1,22 @@
 //! Settings that a board keeps: lowered by the host, never raised above what is compiled in (S13), in force once stored.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod a_bench;
 mod a_board;
 
-use zygote_core::{Core, Inputs};
+use a_bench::{Answer, Bench};
 use zygote_protocol::{
-    Action, CentiCelsius, Command, FaultCode, Limits, Link, Micros, Milliamps, Millis, Millivolts, Received,
-    Refusal, RefusalCode, Reply, Report, Request, Response, RigId, Settings, SettingsReport, State, Step,
-    Turn, decode_payload, granted_session, program_crc,
+    Action, CentiCelsius, Command, FaultCode, Limits, Milliamps, Millis, Refusal, RefusalCode, Reply,
+    Response, RigId, Settings, SettingsReport, State, Step, Turn, program_crc,
 };
 
-type TheCore = Core<1, 1, 1, 4>;
-type Answer = Result<Reply, Refusal>;
-
-const BOOT: u32 = 0;
-
-/// A core and a host that talk without a line between them.
-struct Bench {
-    core: TheCore,
-    host: Link,
-    now: Micros,
-    id: u16,
-}
+/// Half of full scale: some 25 °C.
+const COUNTS: u16 = 2_048;
 
 impl Bench {
-    fn new() -> Self {
-        let core = Core::new(a_board::config(1, 1, 1), Micros(0), None);
-        let mut bench = Self { core, host: Link::new(Micros(0)), now: Micros(1_000), id: 0 };
-        bench.open(5);
-        bench
-    }
-
-    fn open(&mut self, asked: u32) {
-        self.host.send_hello(asked, &zygote_protocol::Hello::ours()).unwrap();
-        self.carry();
-        self.host.open(granted_session(asked, BOOT), self.now);
-        self.carry();
-    }
-
-    /// Carries all that there is to say both ways; the responses.
-    fn carry(&mut self) -> Vec<Response> {
-        let (mut frame, mut responses) = ([0; zygote_protocol::MAX_ENCODED], Vec::new());
-        loop {
-            let length = self.host.poll_transmit(self.now, &mut frame);
-            self.core.handle_bytes(self.now, &frame[..length]);
-            let back = self.core.poll_transmit(self.now, &mut frame);
-            let mut bytes = &frame[..back];
-            while let Some(received) = self.host.receive(self.now, &mut bytes, true) {
-                if let Received::Message(payload) = received
-                    && let Some(Report::Response(response)) = decode_payload(payload)
-                {
-                    responses.push(response);
-                }
-            }
-            if length == 0 && back == 0 {
-                return responses;
-            }
-        }
-    }
-
-    fn send(&mut self, command: Command) -> u16 {
-        self.id += 1;
-        self.host.send(&Request { id: self.id, command }).unwrap();
-        self.id
-    }
-
-    fn ask(&mut self, command: Command) -> Answer {
-        let id = self.send(command);
-        let responses = self.carry();
-        assert_eq!(responses.iter().map(|response| response.id).collect::<Vec<_>>(), [id]);
-        responses.into_iter().next().unwrap().result
-    }
-
     fn report(&mut self) -> SettingsReport {
         let Ok(Reply::Settings(report)) = self.ask(Command::Settings) else { panic!("no settings") };
         report
-    }
-
-    fn tick(&mut self, servos_lost: bool) {
-        let inputs = Inputs {
-            thermistors: &[2048],
-            supply: Millivolts(12_000),
-            current: Milliamps(0),
-            stop_pressed: false,
-            servos_lost,
-        };
-        self.now = self.now.plus(Millis(1));
-        self.core.tick(self.now, &inputs);
     }
 }
 
@@ -237,15 +167,15 @@ fn the_answer_belongs_to_the_session_that_asked() {
 #[test]
 fn a_lost_servo_driver_ends_a_run_with_servos_and_no_other() {
     let mut bench = Bench::new();
-    bench.tick(true);
+    bench.tick(COUNTS, true);
     assert_eq!(bench.core.state(), State::Idle, "a rig without servos has no driver");
     with_a_servo(&mut bench).unwrap();
     arm(&mut bench, compiled().ceiling).unwrap();
     bench.ask(Command::Start { run: 1 }).unwrap();
-    bench.tick(false);
+    bench.tick(COUNTS, false);
     assert_eq!(bench.core.state(), State::Running);
     assert!(bench.core.outputs().servos[0].is_some());
-    bench.tick(true);
+    bench.tick(COUNTS, true);
     assert_eq!(bench.core.fault().map(|fault| fault.code), Some(FaultCode::ServosLost));
     assert_eq!(*bench.core.outputs(), zygote_core::Outputs::OFF);
 }

@@ -5,13 +5,15 @@ use crate::{
     shell::Shell,
     supervisor::{self, BEATS, LONGEST_SLEEP},
 };
-use embassy_stm32::usart::{BufferedUartRx, BufferedUartTx};
+use embassy_stm32::usart::{self, BufferedUartRx, BufferedUartTx};
 use embassy_time::{Duration, Ticker, with_timeout};
 use embedded_io_async::{Read, Write};
 use zygote_protocol::MAX_ENCODED;
 
 /// Period of the control tick, of which reading everything takes a fifth.
 const TICK: Duration = Duration::from_millis(1);
+/// What is given to the line at once; every board's buffer has room for it.
+const PIECE: usize = 64;
 
 /// Sensors to core.
 #[embassy_executor::task]
@@ -49,8 +51,19 @@ pub(crate) async fn transmit(shell: &'static Shell, mut line: BufferedUartTx<'st
         let count = shell.transmit(&mut bytes);
         if count == 0 {
             shell.speak.wait().await;
-        } else if let Err(error) = line.write_all(bytes.get(..count).unwrap_or_default()).await {
+        } else if let Err(error) = send(&mut line, bytes.get(..count).unwrap_or_default()).await {
             defmt::warn!("line: {}", error);
         }
     }
+}
+
+/// Sends a frame in pieces, each once the one before is out: embassy's driver (0.6) refuses what is longer than its buffer, and
+/// who waits in it for room in a buffer that isn't empty is never woken. Who waits for the end may be missed too, so he looks
+/// again; a line that stays stuck is the watchdog's business.
+async fn send(line: &mut BufferedUartTx<'static>, frame: &[u8]) -> Result<(), usart::Error> {
+    for piece in frame.chunks(PIECE) {
+        while with_timeout(LONGEST_SLEEP, line.flush()).await.is_err() {}
+        line.write_all(piece).await?;
+    }
+    Ok(())
 }

@@ -193,12 +193,13 @@ pub fn limits(
     let heats = || {
         steps.iter().filter_map(|step| match step.action {
             Action::Heat(heat) => Some(heat),
+            Action::Pulse(pulse) => Some(pulse.heat()),
             Action::Turn(_) | Action::Release(_) => None,
         })
     };
     let pulses = steps.iter().filter_map(|step| match step.action {
         Action::Release(release) => Some(release.pulse),
-        Action::Heat(_) | Action::Turn(_) => None,
+        Action::Heat(_) | Action::Turn(_) | Action::Pulse(_) => None,
     });
     let ceiling = &mcu.ceiling;
     let asked = Limits {

@@ -6,8 +6,8 @@ use crate::connect::{self, ConnectError, transmit};
 use crate::inbox::{Broken, Inbox, Notice};
 use std::io;
 use zygote_protocol::{
-    Command, HelloReply, Link, LinkCounters, Micros, Millis, Refusal, Reply, Request, SendError, Settings,
-    SettingsReport, Snapshot, Status, Urgent,
+    Command, HelloReply, Link, LinkCounters, Micros, Millis, Readings, Refusal, Reply, Request, SendError,
+    Settings, SettingsReport, Snapshot, Status, Urgent,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
@@ -249,9 +249,11 @@ impl<T: Transport> Session<T> {
     pub fn status(&mut self) -> Result<Status, RequestError> {
         match self.request(Command::Status)? {
             Reply::Status(status) => Ok(status),
-            Reply::Done | Reply::Progress { .. } | Reply::LastRun(_) | Reply::Settings(_) => {
-                Err(RequestError::WrongReply { command: "status" })
-            }
+            Reply::Done
+            | Reply::Progress { .. }
+            | Reply::LastRun(_)
+            | Reply::Settings(_)
+            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "status" }),
         }
     }
 
@@ -262,9 +264,11 @@ impl<T: Transport> Session<T> {
     pub fn last_run(&mut self) -> Result<Option<Snapshot>, RequestError> {
         match self.request(Command::LastRun)? {
             Reply::LastRun(snapshot) => Ok(snapshot),
-            Reply::Done | Reply::Progress { .. } | Reply::Status(_) | Reply::Settings(_) => {
-                Err(RequestError::WrongReply { command: "last run" })
-            }
+            Reply::Done
+            | Reply::Progress { .. }
+            | Reply::Status(_)
+            | Reply::Settings(_)
+            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "last run" }),
         }
     }
 
@@ -275,9 +279,26 @@ impl<T: Transport> Session<T> {
     pub fn settings(&mut self) -> Result<SettingsReport, RequestError> {
         match self.request(Command::Settings)? {
             Reply::Settings(report) => Ok(report),
-            Reply::Done | Reply::Progress { .. } | Reply::Status(_) | Reply::LastRun(_) => {
-                Err(RequestError::WrongReply { command: "settings" })
-            }
+            Reply::Done
+            | Reply::Progress { .. }
+            | Reply::Status(_)
+            | Reply::LastRun(_)
+            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "settings" }),
+        }
+    }
+
+    /// Asks what the heaters' thermistors read, from channel `first` on.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn readings(&mut self, first: u16) -> Result<Readings, RequestError> {
+        match self.request(Command::Readings { first })? {
+            Reply::Readings(readings) => Ok(readings),
+            Reply::Done
+            | Reply::Progress { .. }
+            | Reply::Status(_)
+            | Reply::LastRun(_)
+            | Reply::Settings(_) => Err(RequestError::WrongReply { command: "readings" }),
         }
     }
 
@@ -399,5 +420,6 @@ fn name_of(command: &Command) -> &'static str {
         Command::LastRun => "last run",
         Command::Settings => "settings",
         Command::Configure(_) => "configure",
+        Command::Readings { .. } => "readings",
     }
 }

@@ -92,7 +92,11 @@ pub(crate) struct Host {
 impl Host {
     /// Connected to a board on this plant.
     pub(crate) fn new(plant: &Config) -> Self {
-        let board = Board::new(plant, CHANNELS, 1).unwrap();
+        Self::of(Board::new(plant, CHANNELS, 1).unwrap())
+    }
+
+    /// Connected to this board.
+    pub(crate) fn of(board: Board) -> Self {
         let mut host = Self {
             board,
             faults: Vec::new(),

@@ -4,4 +4,6 @@
 
 mod edges;
 mod host;
+mod pulses;
+mod readings;
 mod rules;

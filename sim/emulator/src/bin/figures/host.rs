@@ -221,5 +221,6 @@ fn name(commands: &[Command]) -> &'static str {
         Command::LastRun => "LastRun",
         Command::Settings => "Settings",
         Command::Configure(_) => "Configure",
+        Command::Readings { .. } => "Readings",
     }
 }
