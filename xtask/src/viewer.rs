@@ -1,6 +1,6 @@
 //! `cargo xtask page`, `cargo xtask viewer`: the page of `zygote view`, built into one file, and tested in a real browser.
 
-use crate::tools::{self, cargo};
+use crate::tools;
 use anyhow::{Context, Result, ensure};
 use std::env;
 use std::path::PathBuf;
@@ -26,9 +26,7 @@ pub(crate) fn test() -> Result<()> {
     }
     tools::run(npm()?.args(["run", "--silent", "test"]))?;
     let browser = browser()?;
-    let target = tools::root().join("target");
-    tools::run(cargo().args(["build", "--package", "zygote-cli", "--target-dir"]).arg(&target))?;
-    let zygote = target.join("debug/zygote").with_extension(env::consts::EXE_EXTENSION);
+    let zygote = tools::built("zygote")?;
     tools::run(
         npm()?.args(["run", "--silent", "browser"]).env("ZYGOTE", zygote).env("BROWSER_PROGRAM", browser),
     )
