@@ -6,6 +6,7 @@ export type Rgb = readonly [number, number, number];
 const HUES = [235, 55, 150, 350, 95, 290, 190, 20];
 /** Beyond the list hues go on by the golden angle, which never comes back to one. */
 const GOLDEN_ANGLE = 137.508;
+const BEYOND = 181;
 
 /** From OKLCH (Ottosson 2020) to linear light, clipped to what a screen shows. */
 export function oklch(lightness: number, chroma: number, hueDeg: number): Rgb {
@@ -32,7 +33,7 @@ export function css(colour: Rgb): string {
 }
 
 export function pileColour(pile: number): Rgb {
-  return oklch(0.745, 0.112, HUES[pile] ?? (pile * GOLDEN_ANGLE) % 360);
+  return oklch(0.745, 0.112, HUES[pile] ?? (BEYOND + pile * GOLDEN_ANGLE) % 360);
 }
 
 /** A scale from 0 to 1: deep blue by way of teal to a warm yellow, ever lighter. */

@@ -20,7 +20,7 @@ test("the scale grows lighter from end to end", () => {
 });
 
 test("piles have colours of their own", () => {
-  expect(new Set(Array.from({ length: 8 }, (_, pile) => css(pileColour(pile)))).size).toBe(8);
+  expect(new Set(Array.from({ length: 16 }, (_, pile) => css(pileColour(pile)))).size).toBe(16);
 });
 
 test("panels are coloured by what moves them, the root by nothing", () => {
