@@ -25,7 +25,13 @@ beforeEach(async () => {
   await shown.page.keyboard.press("Home");
 });
 
-const told = () => shown.page.locator("#time .told").textContent();
+/** What was asked for is drawn with the next frame. */
+const drawn = () =>
+  shown.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done)))));
+const told = async () => {
+  await drawn();
+  return shown.page.locator("#time .told").textContent();
+};
 const card = () => shown.page.locator("#panel h2");
 /** The panel at a height of a pile, and where its middle is on the page. */
 const panelAt = (pile: number, height: number) =>
@@ -82,6 +88,7 @@ test("it plays, and stops when asked to", async () => {
 test("a click on a panel tells of that panel, a click beside picks nothing", async () => {
   const { page } = shown;
   for (const pile of [0, 3]) {
+    await drawn();
     const { panel, x, y } = await panelAt(pile, -1);
     await page.mouse.click(x, y);
     expect(await card().textContent()).toMatch(new RegExp(`^Panel ${panel}\\b`));
@@ -123,6 +130,7 @@ test("everything can be done with keys", async () => {
     expect(await page.getByRole("combobox", { name: "Colour" }).inputValue()).toBe(mode);
   }
   await press("h");
+  await drawn();
   expect(await page.locator(".label:visible").count()).toBeGreaterThan(20);
   expect(await page.locator(".label:visible").first().textContent()).toMatch(/^[ENWS] (90|180|270)°$/);
   const together = await mosaic(page, 24, 16);
