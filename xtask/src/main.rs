@@ -20,18 +20,22 @@ mod sections;
 mod stack;
 mod tests;
 mod tools;
+mod viewer;
 
 use parts::Part;
 use std::process::ExitCode;
 
 /// The parts of `cargo xtask test`, cheapest first; each is a verb of its own.
 const PARTS: &[Part] = &[
+    // First, so that what is built after it embeds it.
+    Part { verb: "page", about: "the viewer's page, built (npm)", run: viewer::page },
     Part { verb: "lint", about: "formatting and clippy", run: lint::run },
     Part { verb: "arrows", about: "which crate may use which", run: arrows::run },
     Part { verb: "unit", about: "unit and integration tests (nextest)", run: tests::unit },
     Part { verb: "doctest", about: "examples in the documentation", run: tests::doc },
     Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
     Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: || hil::run(&[]) },
+    Part { verb: "browser", about: "the viewer's page, in a real browser", run: viewer::test },
     Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },
     Part {
         verb: "figures",
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
             "log" => return told(probe::log(options)),
             "mutants" => return told(mutants::run(options)),
             "figures" => return told(figures::run(options)),
+            "viewer" => return told(viewer::run(options)),
             "hil" => return told(hil::run(options)),
             _ => {}
         }
@@ -99,7 +104,7 @@ fn told(result: anyhow::Result<()>) -> ExitCode {
 fn usage() -> String {
     let parts: Vec<String> = PARTS.iter().map(|part| format!("  {:<9} {}", part.verb, part.about)).collect();
     format!(
-        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  bench calibration [--hinges N] [--broken N] [--seed S] [--wide] [--verbose]\n            how true calibrations are, of sound hinges and broken ones\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  hil [OPTION ..]\n            the serial suite; OPTIONs go to pytest: --target emulator, --level smoke\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  test, ci  everything below\n{}",
+        "usage: cargo xtask VERB\n  demo      a fish, from voxels to deployed on the simulated MCU\n  bench stacking [--large] [--peers]\n            how long planning takes, measured\n  bench deployment [--peers]\n            how short schedules are, measured\n  bench calibration [--hinges N] [--broken N] [--seed S] [--wide] [--verbose]\n            how true calibrations are, of sound hinges and broken ones\n  campaign [--runs N] [--seed S] | --replay SEED:NUMBER\n            random deployments with random faults on the simulated MCU, judged by the physics\n  bench motion [--large] [--peers] [--solids N]\n            motions without collisions, found, seen and measured\n  fuzz [--seconds N] [TARGET ..]\n            every fuzz target, a minute each\n  flash [BOARD]\n            build the firmware, program a board through probe-rs\n  log [BOARD]\n            print the log of the running board\n  hil [OPTION ..]\n            the serial suite; OPTIONs go to pytest: --target emulator, --level smoke\n  mutants [--package core|protocol] [OPTION ..]\n            which breaks of the code no test sees; OPTIONs go to cargo-mutants\n  viewer [--test]\n            the page of `zygote view`, which the next build of zygote embeds; its tests\n  test, ci  everything below\n{}",
         parts.join("\n")
     )
 }

@@ -43,6 +43,7 @@ mod table;
 mod tolerance;
 mod torque;
 mod verb;
+mod view;
 mod weighing;
 
 use clap::Parser;

@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net, picture, plan,
-    reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table, tolerance, torque,
+    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net,
+    picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table,
+    tolerance, torque, view,
 };
 use clap::Subcommand;
 
@@ -32,6 +33,8 @@ pub(crate) enum Verb {
     Torque(torque::Arguments),
     /// Draw a plan: stack, shape, the way between them, or its schedule
     Picture(picture::Arguments),
+    /// Show a plan in the browser: the way from stack to shape, panel by panel
+    View(view::Arguments),
     /// Write a plan as a file of another program: an animated scene
     Export(export::Arguments),
     /// Run a plan's schedule backwards: what folds the shape up again, with servos alone
@@ -74,6 +77,7 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Calibrate(arguments) => calibrate::run(&arguments),
             Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),
             Self::Flash(arguments) => flash::run(&arguments),
@@ -89,6 +93,7 @@ impl Verb {
             Self::Table(arguments) => table::run(&arguments),
             Self::Torque(arguments) => torque::run(&arguments),
             Self::Schedule(arguments) => schedule::run(&arguments),
+            Self::View(arguments) => view::run(&arguments),
             Self::Picture(arguments) => picture::run(&arguments),
         }
     }

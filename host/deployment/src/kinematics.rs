@@ -34,9 +34,19 @@ pub(crate) struct Joint {
 }
 
 impl Joint {
+    /// A point of the axis, in the parent's frame.
+    pub(crate) fn anchor(&self) -> DVec3 {
+        self.anchor
+    }
+
+    /// The axis, of length 1, in the parent's frame.
+    pub(crate) fn axis(&self) -> DVec3 {
+        self.axis.normalize()
+    }
+
     /// The child's frame in the parent's, with the hinge at a fraction of its turn and such a thickness.
     pub(crate) fn parent_from_child(&self, fraction: f64, thickness: f64) -> DAffine3 {
-        let turn = DQuat::from_axis_angle(self.axis.normalize(), self.turn * fraction);
+        let turn = DQuat::from_axis_angle(self.axis(), self.turn * fraction);
         let lift = DVec3::Z * (self.lift * thickness * (1.0 - fraction));
         DAffine3::from_translation(self.anchor)
             * DAffine3::from_quat(turn)

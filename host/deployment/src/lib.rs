@@ -8,7 +8,7 @@
 //! plan + order -> motion --> collisions of panels as plates, over the whole of every turn
 //! plan + order -> dense --> the same seen again by sampling, with code of its own
 //! plan + rig + order -> statics --> torque on every hinge against its rating, tipping of the whole
-//! plan ------> Kinematics --> poses of all panels --> picture (SVG), scene (animated glTF)
+//! plan ------> Kinematics --> poses of all panels --> picture (SVG), scene (animated glTF), playback (for a viewer)
 //! ```
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
@@ -20,6 +20,7 @@ mod kinematics;
 pub mod motion;
 mod order;
 pub mod picture;
+mod playback;
 mod rig;
 pub mod scene;
 mod schedule;
@@ -35,6 +36,7 @@ pub use calibration::{
 };
 pub use kinematics::Kinematics;
 pub use order::{Order, WaitError};
+pub use playback::{Column, Joined, Playback, Pose, Turned};
 pub use rig::*;
 pub use schedule::*;
 pub use tolerance::{HingeErrors, SingleStripError, Spread, Tolerance, ToleranceError, single_strip};

@@ -9,14 +9,15 @@ pub(crate) struct Colour([u8; 3]);
 
 /// Hues in degrees of OKLCH, for piles in their order: neighbours in the list lie far apart.
 const HUES: [f64; 8] = [235.0, 55.0, 150.0, 350.0, 95.0, 290.0, 190.0, 20.0];
-/// Beyond the list hues go on by the golden angle, which never comes back to one.
+/// Beyond the list hues go on by the golden angle, which never comes back to one, from where the next eight keep clear of the list.
 const GOLDEN_ANGLE: f64 = 137.508;
+const BEYOND: f64 = 181.0;
 
 /// Steps of light: few enough that panels of one pile share their colours.
 const STEPS: f64 = 24.0;
 
 fn hue(pile: usize) -> f64 {
-    HUES.get(pile).copied().unwrap_or_else(|| (pile as f64 * GOLDEN_ANGLE) % 360.0)
+    HUES.get(pile).copied().unwrap_or_else(|| (BEYOND + pile as f64 * GOLDEN_ANGLE) % 360.0)
 }
 
 /// The colour of a panel's side; `light` is 0 in shade and 1 in full light. The inner side is paler.
@@ -120,6 +121,14 @@ mod tests {
     #[test]
     fn a_byte_of_light_comes_back() {
         assert!((0..=255).all(|byte| encode(decode(byte)) == byte));
+    }
+
+    #[test]
+    fn no_two_of_sixteen_piles_look_alike() {
+        let apart = |a: f64, b: f64| ((a - b).abs()).min(360.0 - (a - b).abs());
+        for pile in 0..16 {
+            assert!((0..pile).all(|other| apart(hue(pile), hue(other)) > 10.0), "pile {pile}");
+        }
     }
 
     #[test]

@@ -1,0 +1,16 @@
+//! The page, as `build.rs` found it.
+
+use crate::failure::Failure;
+use anyhow::anyhow;
+
+/// One file with everything in it; `None` where it wasn't built before this program.
+const PAGE: Option<&[u8]> = include!(concat!(env!("OUT_DIR"), "/page.rs"));
+
+/// The page.
+pub(super) fn page() -> Result<&'static [u8], Failure> {
+    PAGE.ok_or_else(|| {
+        Failure::Failed(anyhow!(
+            "this program was built without the viewer's page; make it with `cargo xtask viewer`, then build this program again"
+        ))
+    })
+}

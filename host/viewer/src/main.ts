@@ -1,0 +1,38 @@
+//! Where the page begins: asks the server what there is to show, and shows it.
+
+import "./style.css";
+import { element } from "./element";
+import { post, postPicture } from "./picture";
+import { readScene } from "./scene";
+import { FilePlayback } from "./source";
+import { Viewer } from "./viewer";
+import { pictureWish } from "./wishes";
+
+declare global {
+  /** The page, for tests in a browser. */
+  var zygote: Viewer | undefined;
+}
+
+async function main(): Promise<void> {
+  const answer = await fetch("/scene.json");
+  if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
+  const scene = readScene(await answer.json());
+  const [app, canvas, labels] = ["app", "stage", "labels"].map((id) => document.getElementById(id)!);
+  const wish = pictureWish(location.hash);
+  if (wish) {
+    document.documentElement.dataset["picture"] = "";
+    await postPicture(scene, wish, canvas as HTMLCanvasElement);
+    return;
+  }
+  document.title = `${scene.model} · zygote`;
+  const viewer = new Viewer(scene, new FilePlayback(scene), app!, canvas as HTMLCanvasElement, labels!);
+  viewer.start();
+  globalThis.zygote = viewer;
+  document.documentElement.dataset["ready"] = "";
+}
+
+main().catch((error: unknown) => {
+  const told = error instanceof Error ? error.message : String(error);
+  if (pictureWish(location.hash)) post("/trouble", told).catch(() => undefined);
+  document.getElementById("app")?.append(element("p", { class: "trouble", role: "alert" }, `This plan can't be shown: ${told}`));
+});

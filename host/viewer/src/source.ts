@@ -1,0 +1,72 @@
+//! Where the page gets its state from: a file that is played, or later a run that goes on.
+
+import { Timeline } from "./timeline";
+import type { Playback } from "./scene";
+
+/** What there is to show at a moment. */
+export interface State {
+  readonly time: number;
+  /** Of each hinge how far it is from the zygote (0) to the target (1). */
+  readonly fractions: Float64Array;
+}
+
+export interface Source {
+  readonly timeline: Timeline;
+  /** A file can be gone through at will, a run goes on by itself. */
+  readonly seekable: boolean;
+  readonly playing: boolean;
+  readonly state: State;
+  /** Called with the seconds since the last call; says whether there is something new to show. */
+  advance(seconds: number): boolean;
+  seek(time: number): void;
+  play(on: boolean): void;
+}
+
+/** Playing takes so many seconds, whatever the schedule takes. */
+function duration(hinges: number): number {
+  return Math.min(Math.max(6, 5 * Math.log10(1 + hinges)), 24);
+}
+
+/** A plan that is played. */
+export class FilePlayback implements Source {
+  readonly seekable = true;
+  readonly timeline: Timeline;
+  playing = false;
+  private time: number;
+  private readonly fractions: Float64Array;
+  private readonly rate: number;
+  private changed = true;
+
+  constructor(playback: Playback, share = 0) {
+    this.timeline = new Timeline(playback);
+    this.time = share * this.timeline.end;
+    this.fractions = new Float64Array(playback.hinges.length);
+    this.rate = this.timeline.end / duration(playback.hinges.length);
+  }
+
+  get state(): State {
+    return { time: this.time, fractions: this.timeline.fractions(this.time, this.fractions) };
+  }
+
+  advance(seconds: number): boolean {
+    const changed = this.changed;
+    this.changed = false;
+    if (!this.playing) return changed;
+    // A page that was hidden goes on where it was.
+    this.time = Math.min(this.time + Math.min(seconds, 0.1) * this.rate, this.timeline.end);
+    if (this.time >= this.timeline.end) this.playing = false;
+    return true;
+  }
+
+  seek(time: number): void {
+    this.time = Math.min(Math.max(time, 0), this.timeline.end);
+    this.changed = true;
+  }
+
+  play(on: boolean): void {
+    // From the end it starts anew.
+    if (on && this.time >= this.timeline.end) this.time = 0;
+    this.playing = on && this.timeline.end > 0;
+    this.changed = true;
+  }
+}

@@ -1,0 +1,240 @@
+//! The page: a source, the stage that shows it, and the tools around it.
+
+import { element } from "./element";
+import { listen } from "./keyboard";
+import { Labels } from "./labels";
+import { missing, type Mode, MODES, type Paint, paint } from "./paint";
+import { PanelCard } from "./panelCard";
+import { Places, type Scene } from "./scene";
+import type { Source } from "./source";
+import { Stage } from "./stage";
+import { ThemeChoice } from "./theme";
+import { TimeBar } from "./timeBar";
+import { Toolbar } from "./toolbar";
+
+/** A pointer that went less far, in pixels, picked something. */
+const DRAG = 4;
+
+export class Viewer {
+  private readonly places: Places;
+  private readonly stage: Stage;
+  private readonly labels: Labels;
+  private readonly bar: TimeBar;
+  private readonly card: PanelCard;
+  private readonly tools: Toolbar;
+  private readonly themes: ThemeChoice;
+  private mode: Mode = "pile";
+  private colours: Paint;
+  private explode = 0;
+  private explodeTo = 0;
+  private hinges = false;
+  private picked: number | undefined;
+  private across = 0;
+  private asked = false;
+  private last = 0;
+  /** How long the last frames took, in milliseconds of this page's own work. */
+  readonly work: number[] = [];
+
+  constructor(
+    private readonly scene: Scene, private readonly source: Source,
+    private readonly app: HTMLElement, private readonly canvas: HTMLCanvasElement, labels: HTMLElement,
+  ) {
+    this.places = new Places(scene);
+    this.stage = new Stage(canvas, scene, this.places, () => this.ask());
+    this.labels = new Labels(labels, scene);
+    this.colours = paint(this.mode, scene, this.places);
+    this.bar = new TimeBar(source, () => this.playOrPause(), () => this.ask());
+    this.card = new PanelCard(scene, this.places, (panel) => this.pick(panel));
+    this.tools = new Toolbar(scene, this.places.panels, {
+      colour: (mode) => this.colour(mode),
+      explode: (share) => this.apart(share),
+      hinges: (on) => this.showHinges(on),
+      pick: (panel) => this.pick(panel),
+      frame: () => this.frame(),
+      theme: () => this.themes.toggle(),
+    });
+    this.themes = new ThemeChoice((theme) => {
+      this.stage.theme(theme);
+      this.ask();
+    });
+    const side = element("div", { id: "side" }, this.tools.root, this.card.root);
+    app.append(heading(scene), side, this.bar.root, this.tools.help);
+  }
+
+  start(): void {
+    this.themes.apply();
+    this.colour("pile");
+    this.pick(undefined);
+    this.listen();
+    this.resize();
+    this.draw(0);
+    this.stage.reset();
+    this.ask();
+  }
+
+  /** Draws soon. */
+  private ask(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame((now) => {
+      this.asked = false;
+      const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
+      this.draw(passed);
+      this.last = this.asked ? now : 0;
+    });
+  }
+
+  private draw(passed: number): void {
+    const start = performance.now();
+    this.source.advance(passed);
+    const { state, timeline, playing } = this.source;
+    const share = timeline.end > 0 ? state.time / timeline.end : 1;
+    // Apart and together in a quarter of a second.
+    const way = this.explodeTo - this.explode;
+    this.explode += Math.abs(way) < 0.004 ? way : way * Math.min(1, passed * 12 + 0.05);
+    this.stage.place(state, share, this.explode);
+    this.stage.render();
+    const { motion, bars, camera, size } = this.stage;
+    const all = this.scene.hinges.map((_, hinge) => hinge);
+    const own = this.picked === undefined ? [] : [...this.places.hinges[this.picked]!];
+    const shown = this.hinges ? all : own;
+    const apart = { by: motion.apart, share: this.explode };
+    this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
+    this.bar.update();
+    this.card.update(state.fractions);
+    this.work.push(performance.now() - start);
+    if (this.work.length > 240) this.work.shift();
+    if (playing || this.explode !== this.explodeTo) this.ask();
+  }
+
+  private playOrPause(): void {
+    this.source.play(!this.source.playing);
+    this.ask();
+  }
+
+  private seek(time: number): void {
+    this.source.play(false);
+    this.source.seek(time);
+    this.ask();
+  }
+
+  private colour(mode: Mode): void {
+    if (missing(mode, this.scene) !== undefined) return;
+    this.mode = mode;
+    this.colours = paint(mode, this.scene, this.places);
+    this.stage.paint(this.colours);
+    this.told();
+  }
+
+  private apart(share: number): void {
+    this.explodeTo = share;
+    this.told();
+  }
+
+  private showHinges(on: boolean): void {
+    this.hinges = on;
+    this.stage.bars.show(on, this.picked === undefined ? [] : this.places.hinges[this.picked]!);
+    this.told();
+  }
+
+  private told(): void {
+    this.tools.update(this.mode, this.explodeTo, this.hinges, this.colours.legend);
+    this.ask();
+  }
+
+  pick(panel: number | undefined): void {
+    this.picked = panel;
+    this.across = 0;
+    const hinges = panel === undefined ? [] : this.places.hinges[panel]!;
+    const joined = hinges.map((hinge) => this.other(hinge, panel!));
+    this.stage.plates.mark(panel, joined);
+    this.card.show(panel);
+    this.showHinges(this.hinges);
+  }
+
+  private other(hinge: number, panel: number): number {
+    const [a, b] = this.scene.hinges[hinge]!.panels;
+    return a === panel ? b : a;
+  }
+
+  private frame(): void {
+    this.stage.reset();
+    this.ask();
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    // What the tools leave free; they may cover a little of a wide page, but not the middle of a narrow one.
+    const inset = { right: Math.min(200, Math.max(0, width - height)), bottom: Math.min(100, height / 5) };
+    this.stage.resize(width, height, devicePixelRatio, inset);
+    this.ask();
+  }
+
+  private listen(): void {
+    new ResizeObserver(() => this.resize()).observe(this.app);
+    let down: { x: number; y: number } | undefined;
+    this.canvas.addEventListener("pointerdown", (event) => (down = { x: event.clientX, y: event.clientY }));
+    this.canvas.addEventListener("pointerup", (event) => {
+      // What was dragged was no pick.
+      if (down && Math.hypot(event.clientX - down.x, event.clientY - down.y) < DRAG) {
+        const box = this.canvas.getBoundingClientRect();
+        this.pick(this.stage.pick(event.clientX - box.left, event.clientY - box.top));
+      }
+      down = undefined;
+    });
+    const place = () => (this.picked === undefined ? undefined : this.places.of[this.picked]!);
+    listen({
+      playOrPause: () => this.playOrPause(),
+      step: (forward) => this.seek(this.source.timeline.step(this.source.state.time, forward)),
+      end: (last) => this.seek(last ? this.source.timeline.end : 0),
+      nextColour: () => {
+        const modes = MODES.filter((mode) => missing(mode, this.scene) === undefined);
+        this.colour(modes[(modes.indexOf(this.mode) + 1) % modes.length]!);
+      },
+      apart: () => this.apart(this.explodeTo > 0 ? 0 : 1),
+      hinges: () => this.showHinges(!this.hinges),
+      inPile: (up) => {
+        const at = place() ?? { pile: 0, height: up ? -1 : 1 };
+        const panel = this.scene.piles[at.pile]!.panels[at.height + (up ? 1 : -1)];
+        if (panel !== undefined) this.pick(panel);
+      },
+      across: () => {
+        if (this.picked === undefined) return this.pick(this.scene.root);
+        const hinges = this.places.hinges[this.picked]!;
+        const next = hinges[this.across % hinges.length];
+        if (next !== undefined) this.pick(this.other(next, this.picked));
+      },
+      orbit: (around, up, factor) => {
+        this.stage.orbit(around, up, factor);
+        this.ask();
+      },
+      frame: () => this.frame(),
+      theme: () => this.themes.toggle(),
+      help: () => this.tools.help.showModal(),
+      nothing: () => this.pick(undefined),
+    });
+  }
+
+  /** Where a panel is on the page, for tests. */
+  where(panel: number): { x: number; y: number } {
+    const box = this.canvas.getBoundingClientRect();
+    const { x, y } = this.stage.where(panel, this.explode);
+    return { x: box.left + x, y: box.top + y };
+  }
+}
+
+/** What the plan is, in three lines. */
+function heading(scene: Scene): HTMLElement {
+  const panels = scene.joints.length + 1;
+  const piles = scene.piles.length === 1 ? "1 pile" : `${scene.piles.length} piles`;
+  const high = scene.piles[0]?.panels.length ?? 0;
+  const name = scene.model.replace(/\.[a-z0-9]+$/i, "");
+  const { told, collisions } = scene.checked;
+  return element(
+    "header", { id: "what" },
+    element("h1", {}, name),
+    element("p", {}, `${panels} panels in ${piles} of ${high} · ${scene.expansion_ratio.toFixed(1)} times the volume`),
+    element("p", { class: collisions.length > 0 ? "note bad" : "note" }, told),
+    ...(scene.scheduled ? [] : [element("p", { class: "note" }, "No schedule: hinges open in the order of the tree")]),
+  );
+}
