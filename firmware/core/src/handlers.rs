@@ -36,7 +36,7 @@ pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS
         Command::LastRun => Ok(Reply::LastRun(core.before.clone())),
         Command::Settings => Ok(core.keeper.report(now, &core.config)),
         Command::Memory => Ok(Reply::Memory(core.keeper.memory())),
-        Command::Readings { first } => Ok(Reply::Readings(readings(core, first))),
+        Command::Readings { first } => Ok(readings(core, first)),
         Command::Configure(settings) => return configure(core, id, settings).err().map(Err),
     })
 }
@@ -81,24 +81,25 @@ fn progress<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     Reply::Progress { first, steps: states.take(zygote_protocol::PROGRESS_PER_REPLY).collect() }
 }
 
-/// As of the latest tick: when the thermistors were read and the power was set.
+/// As of the latest tick: when the thermistors were read and the power was set. By itself, so that no other command's stack holds it.
+#[inline(never)]
 fn readings<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     core: &Core<H, S, R, STEPS>,
     first: u16,
-) -> Readings {
+) -> Reply {
     let fitted = usize::from(core.channels().heaters);
     let reading = |(guard, duty): (&ThermalGuard, &Duty)| Reading {
         temperature: guard.believed(),
         duty: duty.per_mille(),
     };
     let channels = core.guards.iter().zip(&core.outputs.heaters).take(fitted).skip(usize::from(first));
-    Readings {
+    Reply::Readings(Readings {
         at: core.ticked,
         supply: core.supply,
         current: core.current,
         first,
         channels: channels.map(reading).take(READINGS_PER_REPLY).collect(),
-    }
+    })
 }
 
 fn upload<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
