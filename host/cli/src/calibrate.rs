@@ -83,7 +83,7 @@ struct Files {
 
 /// Measures; succeeds only when every hinge is calibrated.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let rig = input::rig(&arguments.rig)?;
+    let (rig, _) = input::rig_as_written(&arguments.rig)?;
     let fittings = fittings(arguments, &rig)?;
     let result = arguments.output.clone().unwrap_or_else(|| arguments.rig.with_file_name("calibration.toml"));
     let files = Files {

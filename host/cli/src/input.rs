@@ -4,7 +4,7 @@ use crate::failure::{Failure, OrFail};
 use anyhow::{Context, anyhow};
 use std::fs;
 use std::path::Path;
-use zygote_deployment::{Rig, Schedule};
+use zygote_deployment::{Calibration, Rig, Schedule};
 use zygote_stacking::{Plan, fold};
 
 /// A plan that keeps every rule.
@@ -14,16 +14,37 @@ pub(crate) fn plan(path: &Path) -> Result<Plan, Failure> {
     fold::read(&bytes).with_context(|| format!("{name}: no plan")).or_bad_input()
 }
 
-/// A rig file.
+/// A rig file with its calibration, where it names one.
 pub(crate) fn rig(path: &Path) -> Result<Rig, Failure> {
     Ok(rig_with_text(path)?.0)
 }
 
-/// A rig file, with its text.
+/// A rig file with its calibration, and the file's text.
 pub(crate) fn rig_with_text(path: &Path) -> Result<(Rig, String), Failure> {
+    let (rig, text) = rig_as_written(path)?;
+    Ok((calibrated(path, rig)?, text))
+}
+
+/// A rig file by itself: what a calibration begins with.
+pub(crate) fn rig_as_written(path: &Path) -> Result<(Rig, String), Failure> {
     let name = path.display().to_string();
     let text = fs::read_to_string(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
     Ok((Rig::read(&name, &text).or_bad_input()?, text))
+}
+
+/// The rig with the calibration file that it names, which stands beside it.
+fn calibrated(rig_path: &Path, rig: Rig) -> Result<Rig, Failure> {
+    let Some(file) = &rig.calibration else { return Ok(rig) };
+    let path = rig_path.with_file_name(file);
+    let name = path.display().to_string();
+    let text = fs::read_to_string(&path)
+        .with_context(|| {
+            let rig = rig_path.display();
+            format!("{rig}: rig.calibration: {name} cannot be read; `zygote calibrate --rig {rig}` makes one")
+        })
+        .or_bad_input()?;
+    let calibration = Calibration::read(&text, &rig.id).with_context(|| name.clone()).or_bad_input()?;
+    rig.calibrated(&name, &calibration).or_bad_input()
 }
 
 /// The schedule in `beside`, else the plan's own; verified against plan and rig.

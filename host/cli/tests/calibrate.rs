@@ -122,3 +122,83 @@ fn what_is_no_hinge_of_the_rig_or_no_record_of_it_is_refused() {
         assert_eq!(place.read("calibration.records.json"), text, "nothing was measured");
     }
 }
+
+/// Sixteen hinges, of which number 3 has a weaker heater than the rig file says.
+const LARGE: &str = r#"
+version = 1
+
+[rig]
+id = "bench"
+# calibration
+
+[supply]
+voltage = "5 V"
+limit = "2 A"
+resistance = "50 mohm"
+
+[[node]]
+name = "simulated"
+heaters = 16
+
+[[sim.hinge]]
+hinge = 3
+sma = { heater_resistance = "29 ohm" }
+"#;
+
+/// Current and least gain of a hinge's step.
+fn step(place: &Scratch, hinge: usize) -> (u64, i64) {
+    let schedule: Value = serde_json::from_str(&place.read("schedule.json")).unwrap();
+    let steps = schedule["steps"].as_array().unwrap();
+    let step = steps.iter().find(|step| step["hinge"] == hinge).unwrap();
+    (step["current_ma"].as_u64().unwrap(), step["motion"]["min_gain_centi_celsius"].as_i64().unwrap())
+}
+
+#[test]
+fn a_rig_that_names_its_calibration_is_driven_by_what_was_measured() {
+    let place = Scratch::new("drives_by_calibration");
+    let calibrated = LARGE.replace("# calibration", "calibration = \"calibration.toml\"");
+    let plan = place.zygote(&[
+        "plan",
+        &scratch::model("i14.txt"),
+        "--piles",
+        "2",
+        "--free",
+        "ideal",
+        "-o",
+        "plan.fold",
+    ]);
+    assert_eq!(plan.code, 0, "{}", plan.errors);
+    let schedule = ["schedule", "plan.fold", "--rig", "rig.toml", "-o", "schedule.json"];
+    let deploy = ["deploy", "plan.fold", "--schedule", "schedule.json", "--rig", "rig.toml", "--sim"];
+
+    place.write("rig.toml", &calibrated);
+    let missing = place.zygote(&schedule);
+    assert_eq!(missing.code, 2);
+    assert!(missing.errors.contains("zygote calibrate --rig rig.toml"), "{}", missing.errors);
+
+    // The rig file that names it is also what it is made with.
+    let run = calibrate(&place, &calibrated, &["--hinge", "3"]);
+    assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    place.write("rig.toml", LARGE);
+    assert_eq!(place.zygote(&schedule).code, 0);
+    assert_eq!(step(&place, 3), (200, 500));
+    place.write("rig.toml", &calibrated);
+    let stale = place.zygote(&deploy);
+    assert_eq!(stale.code, 2, "a schedule made without the calibration: {}{}", stale.output, stale.errors);
+
+    let run = place.zygote(&schedule);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let ((current, gain), other) = (step(&place, 3), step(&place, 4));
+    assert!((170..=175).contains(&current), "{current} mA at 29 ohm");
+    assert!(gain > 1_000, "a third of what is expected in 3 s, in 0.01 K: {gain}");
+    assert_eq!(other, (200, 500), "nothing is known of it");
+    let run = place.zygote(&deploy);
+    assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    assert!(run.output.contains("true angles: 13 of 13 hinges"), "{}", run.output);
+
+    let other = place.read("calibration.toml").replace("rig = \"bench\"", "rig = \"other\"");
+    place.write("calibration.toml", &other);
+    let refused = place.zygote(&schedule);
+    assert_eq!(refused.code, 2);
+    assert!(refused.errors.contains("a calibration of rig \"other\""), "{}", refused.errors);
+}

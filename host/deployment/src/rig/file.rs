@@ -41,6 +41,8 @@ pub(super) struct Identity {
     pub(super) id: String,
     #[serde(default = "room")]
     pub(super) ambient: Celsius,
+    #[serde(default)]
+    pub(super) calibration: Option<String>,
 }
 
 fn room() -> Celsius {

@@ -93,7 +93,28 @@ impl Rig {
             let channel = channel.ok_or_else(|| self.too_few(kind, hinges))?;
             Ok(Fitting { node, channel, drive: place.drive })
         };
-        places.into_iter().map(fitting).collect()
+        let fittings = places.into_iter().map(fitting).collect::<Result<Vec<_>, _>>()?;
+        self.hold_measured(&fittings)?;
+        Ok(fittings)
+    }
+
+    /// What was measured with one heater and thermistor says nothing of another.
+    fn hold_measured(&self, fittings: &[Fitting]) -> Result<(), RigError> {
+        for measured in &self.measured {
+            let Some(fitting) = fittings.get(measured.hinge) else { continue };
+            if fitting.channel != measured.channel {
+                let (hinge, channel) = (measured.hinge, measured.channel);
+                return Err(RigError::Value {
+                    place: self.places.of("rig.calibration"),
+                    expected: format!(
+                        "hinge {hinge} at channel {}, where it is now: calibrate it again",
+                        fitting.channel
+                    ),
+                    found: format!("a calibration at channel {channel}"),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// What the rig file says of every hinge, and the channels that it gives away.
@@ -119,6 +140,11 @@ impl Rig {
                 continue;
             };
             return Err(RigError::Value { place: at("channel"), expected, found: channel.to_string() });
+        }
+        for measured in &self.measured {
+            if let Some(place) = places.get_mut(measured.hinge) {
+                place.drive = measured.drive;
+            }
         }
         if let Some((hinge, _)) = self.sim.hinges().find(|(hinge, _)| *hinge >= hinges) {
             return Err(RigError::NoSuchHinge { place: self.places.of("sim.hinge"), hinge, last });

@@ -3,6 +3,7 @@
 //! [`Rig::read`] looks at the file by itself, [`Rig::fit`] puts the rig to a plan. `docs/src/rig-file.md` is
 //! the page for the file.
 
+mod calibrated;
 mod error;
 mod file;
 mod fit;
@@ -14,6 +15,7 @@ mod settings;
 mod sim;
 mod weight;
 
+pub use calibrated::CalibratedError;
 pub use error::RigError;
 pub use fit::Fitting;
 pub use places::Place;
@@ -41,6 +43,8 @@ pub struct Rig {
     pub id: String,
     /// Temperature around the hinges, for estimates of time.
     pub ambient: Celsius,
+    /// The calibration file of its hinges, as the rig file names it; see [`Rig::calibrated`].
+    pub calibration: Option<String>,
     /// What powers the actuators.
     pub supply: Supply,
     /// How host and MCU talk.
@@ -60,6 +64,8 @@ pub struct Rig {
     spring: SpringSettings,
     /// Hinges with an entry of their own, in the order of the file.
     entries: Vec<Entry>,
+    /// Hinges that are known by measurement.
+    measured: Vec<calibrated::Measured>,
     places: Places,
 }
 
@@ -170,6 +176,7 @@ impl Rig {
         Self {
             id: file.rig.id,
             ambient: file.rig.ambient,
+            calibration: file.rig.calibration,
             supply: Supply {
                 voltage: file.supply.voltage,
                 limit: file.supply.limit,
@@ -194,6 +201,7 @@ impl Rig {
             servo: ServoSettings::resolve(None, &file.servo),
             spring: SpringSettings::resolve(None, &file.spring),
             entries,
+            measured: Vec::new(),
             places,
         }
     }

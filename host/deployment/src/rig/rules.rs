@@ -24,9 +24,9 @@ const COLDEST: Celsius = Celsius(-40.0);
 const SERVO_PULSES: (Seconds, Seconds) = (Seconds(1e-4), Seconds(1e-2));
 
 /// Holds the rules of one table against its keys' places.
-struct Rules<'a, P: Fn(&str) -> Place> {
-    place: P,
-    rig: &'a Rig,
+pub(super) struct Rules<'a, P: Fn(&str) -> Place> {
+    pub(super) place: P,
+    pub(super) rig: &'a Rig,
 }
 
 impl Rig {
@@ -210,7 +210,7 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
         self.hold(rising, "torque", "rising angles", "an angle that isn't above the one before it")
     }
 
-    fn drive(&self, drive: &Drive) -> Result<(), RigError> {
+    pub(super) fn drive(&self, drive: &Drive) -> Result<(), RigError> {
         self.torque(drive.torque())?;
         match drive {
             Drive::Sma(sma) => self.sma(sma),

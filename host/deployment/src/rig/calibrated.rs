@@ -1,0 +1,183 @@
+//! A rig whose shape-memory hinges are known by measurement: what a calibration found counts more than what the rig file says of them.
+
+use super::rules::Rules;
+use super::settings::{Drive, SmaSettings};
+use super::{Kelvins, Place, Rig, RigError};
+use crate::calibration::{Calibration, CalibrationError, Known};
+use crate::heating;
+
+/// Of the gain that a calibrated hinge is expected to have within `gain_window`, the share below which heating it is a fault (S6). A
+/// supply that is loaded, or a colder room, costs less; a thermistor that came off or a broken heater costs more.
+const LEAST_SHARE: f64 = 1.0 / 3.0;
+
+/// A hinge as it was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Measured {
+    pub(super) hinge: usize,
+    /// The heater that it was measured with.
+    pub(super) channel: u16,
+    pub(super) drive: Drive,
+}
+
+/// A rig and a calibration that don't go together.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CalibratedError {
+    /// The calibration has a value that can't be read.
+    #[error("{file}: {error}")]
+    Calibration {
+        /// The calibration file.
+        file: String,
+        /// What is wrong.
+        error: CalibrationError,
+    },
+    /// The rig can't do with what was measured.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+}
+
+impl Rig {
+    /// The rig with what a calibration, read from `file`, knows of its hinges. Hinges that it knows nothing of stay as they were.
+    ///
+    /// # Errors
+    /// [`CalibratedError`]: a hinge that is no shape-memory hinge here, or whose measured values break a rule of the rig file, such as a
+    /// target that isn't above its austenite finish.
+    pub fn calibrated(mut self, file: &str, calibration: &Calibration) -> Result<Self, CalibratedError> {
+        for hinge in &calibration.hinges {
+            let unread = |error| CalibratedError::Calibration { file: file.to_owned(), error };
+            let known = hinge.known().map_err(unread)?;
+            let place = |key: &str| Place {
+                file: file.to_owned(),
+                line: None,
+                key: format!("hinge {}: {key}", hinge.hinge),
+            };
+            let Drive::Sma(sma) = self.drive_of(hinge.hinge) else {
+                let (expected, found) = ("a shape-memory hinge of the rig", "a hinge of another kind");
+                let (expected, found) = (expected.to_owned(), found.to_owned());
+                return Err(RigError::Value { place: place("hinge"), expected, found }.into());
+            };
+            let drive = Drive::Sma(measured(&self, &sma, &known));
+            Rules { place, rig: &self }.drive(&drive)?;
+            self.measured.push(Measured { hinge: hinge.hinge, channel: hinge.channel, drive });
+        }
+        Ok(self)
+    }
+
+    /// What the rig file says of a hinge.
+    fn drive_of(&self, hinge: usize) -> Drive {
+        let own = self.entries.iter().find(|entry| entry.hinge == hinge);
+        own.map_or_else(|| self.shared(self.default_kind), |entry| entry.drive)
+    }
+}
+
+/// The settings with all that is known in their place.
+fn measured(rig: &Rig, sma: &SmaSettings, known: &Known) -> SmaSettings {
+    let sma = SmaSettings {
+        heater_resistance: known.heater_resistance.unwrap_or(sma.heater_resistance),
+        thermal_resistance: known.foil_rise.unwrap_or(sma.thermal_resistance),
+        time_constant: known.time_constant.unwrap_or(sma.time_constant),
+        latent_heat: known.latent_heat.unwrap_or(sma.latent_heat),
+        austenite_start: known.austenite_start.unwrap_or(sma.austenite_start),
+        austenite_finish: known.austenite_finish.unwrap_or(sma.austenite_finish),
+        ..*sma
+    };
+    // Without these there is nothing to expect.
+    if known.heater_resistance.and(known.foil_rise).and(known.time_constant).is_none() {
+        return sma;
+    }
+    let gain = heating::gain(rig, &sma, sma.gain_window);
+    SmaSettings { min_gain: Kelvins(gain.0 * LEAST_SHARE), ..sma }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::rig_text;
+
+    /// A calibration of hinge 0 at channel `channel`, with values of these keys.
+    fn calibration(channel: u16, values: &[(&str, &str)]) -> Calibration {
+        let values: Vec<_> = values
+            .iter()
+            .map(|(key, value)| {
+                format!("[hinge.values.{key}]\nvalue = \"{value}\"\nlow = \"{value}\"\nhigh = \"{value}\"\n")
+            })
+            .collect();
+        let text = format!(
+            "version = 1\nrig = \"bench-1\"\nboard = \"b\"\nunique_id = \"00\"\n[[hinge]]\nhinge = 0\nchannel = {channel}\n\
+             date = \"2026-01-02T03:04:05Z\"\nfirmware = \"f\"\nverdict = \"calibrated\"\n{}",
+            values.concat()
+        );
+        Calibration::read(&text, "bench-1").unwrap()
+    }
+
+    fn rig(extra: &str) -> Rig {
+        Rig::read("rig.toml", &rig_text(extra)).unwrap()
+    }
+
+    fn sma_of(rig: &Rig) -> SmaSettings {
+        let Drive::Sma(sma) = rig.fit(1).unwrap()[0].drive else { panic!("the default kind is sma") };
+        sma
+    }
+
+    const MEASURED: [(&str, &str); 4] = [
+        ("heater_resistance", "27 ohm"),
+        ("foil_rise", "120 K/W"),
+        ("time_constant", "6 s"),
+        ("austenite_finish", "80 degC"),
+    ];
+
+    #[test]
+    fn what_was_measured_counts_and_the_rest_stays() {
+        let rig = rig("");
+        let before = sma_of(&rig);
+        let after = sma_of(&rig.calibrated("c.toml", &calibration(0, &MEASURED)).unwrap());
+        assert_eq!((after.heater_resistance.0, after.thermal_resistance.0), (27.0, 120.0));
+        assert_eq!((after.time_constant.0, after.austenite_finish.0), (6.0, 80.0));
+        assert_eq!((after.austenite_start, after.latent_heat), (before.austenite_start, before.latent_heat));
+        assert_eq!((after.target, after.gain_window), (before.target, before.gain_window));
+    }
+
+    #[test]
+    fn s6_the_least_gain_is_a_third_of_what_the_hinge_is_expected_to_gain() {
+        let rig = rig("").calibrated("c.toml", &calibration(0, &MEASURED)).unwrap();
+        let sma = sma_of(&rig);
+        // All of it below the austenite's start: 3 s of 6 s towards what 4.9 V at 27 ohm settle at.
+        let settled = 4.9_f64.powi(2) / 27.0 * 120.0;
+        let expected = settled * (1.0 - (-0.5_f64).exp());
+        assert!((sma.min_gain.0 - expected / 3.0).abs() < 1e-9, "{} K, {expected} K", sma.min_gain.0);
+    }
+
+    #[test]
+    fn a_hinge_of_which_too_little_is_known_keeps_its_least_gain() {
+        let rig = rig("");
+        let before = sma_of(&rig).min_gain;
+        let after = rig.calibrated("c.toml", &calibration(0, &MEASURED[..1])).unwrap();
+        assert_eq!((sma_of(&after).min_gain, sma_of(&after).heater_resistance.0), (before, 27.0));
+    }
+
+    #[test]
+    fn a_hinge_that_has_moved_to_another_channel_is_refused() {
+        let rig = rig("").calibrated("c.toml", &calibration(1, &MEASURED)).unwrap();
+        let error = rig.fit(1).unwrap_err().to_string();
+        assert!(
+            error.contains("hinge 0 at channel 0") && error.contains("a calibration at channel 1"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_target_below_the_measured_austenite_finish_is_refused_with_file_and_hinge() {
+        let error = rig("").calibrated("c.toml", &calibration(0, &[("austenite_finish", "97 degC")]));
+        let error = error.unwrap_err().to_string();
+        assert!(error.starts_with("c.toml: hinge 0: austenite_finish: expected less than target"), "{error}");
+    }
+
+    #[test]
+    fn a_hinge_that_is_a_servo_here_is_refused() {
+        let rig = rig("[[hinge]]\nhinge = 0\nkind = \"servo\"\n");
+        let error = rig.calibrated("c.toml", &calibration(0, &MEASURED)).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "c.toml: hinge 0: hinge: expected a shape-memory hinge of the rig, found a hinge of another kind"
+        );
+    }
+}
