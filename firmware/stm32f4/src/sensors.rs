@@ -59,8 +59,8 @@ impl Sensors {
         let current = self.adc.blocking_read(&mut self.current, SAMPLE_TIME);
         Inputs {
             thermistors: &self.thermistors,
-            supply: Millivolts(pin_millivolts(supply) * SUPPLY_DIVIDER),
-            current: Milliamps(pin_millivolts(current) * MILLIAMPS_PER_MILLIVOLT),
+            supply: Millivolts(scaled(supply, SUPPLY_DIVIDER)),
+            current: Milliamps(scaled(current, MILLIAMPS_PER_MILLIVOLT)),
             // Both, in any order: an edge is told once, and a button that was pressed before the start has none.
             servos_lost: servo_gate::is_lost(),
             stop_pressed: stop::was_pressed() | (self.stop.get_level() == self.stop_pressed),
@@ -75,6 +75,8 @@ impl Sensors {
     }
 }
 
-fn pin_millivolts(reading: u16) -> u32 {
-    u32::from(reading) * REFERENCE_MV / u32::from(ADC_FULL_SCALE)
+/// So many times the millivolts at the pin, rounded once: a millivolt there is 10 mA of current.
+fn scaled(reading: u16, times: u32) -> u32 {
+    let full = u32::from(ADC_FULL_SCALE);
+    (u32::from(reading) * REFERENCE_MV * times + full / 2) / full
 }

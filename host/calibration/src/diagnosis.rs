@@ -142,8 +142,8 @@ pub(crate) fn electrical(record: &Record) -> Option<Electrical> {
     let off: Vec<&Sample> = resting(record).filter(|sample| sample.current_a.is_some()).collect();
     let others_a = median_a(off.iter().copied());
     let found = resistance(record, &record.drives, others_a)?;
-    // What flows at rest is known to a part of a milliampere, and all that is wrong with it is wrong with every pulse.
-    let error_a = 0.3e-3_f64.hypot(5e-3 / (off.len().max(1) as f64).sqrt());
+    // What flows at rest is known to a part of the converter's step, and all that is wrong with it is wrong with every pulse.
+    let error_a = rounding_a(record).hypot(5e-3 / (off.len().max(1) as f64).sqrt());
     let (sum_a, count) = record
         .drives
         .iter()
@@ -152,6 +152,19 @@ pub(crate) fn electrical(record: &Record) -> Option<Electrical> {
         .fold((0.0, 0_u32), |(sum_a, count), current_a| (sum_a + current_a - others_a, count + 1));
     let share = error_a * f64::from(count) / sum_a;
     Some(Electrical { ohm: found.ohm, error_ohm: found.error_ohm.hypot(found.ohm * share) })
+}
+
+/// The standard deviation of what the converter rounds away: that of its step, which is the least by which two readings differ. A
+/// steady current is rounded the same way every time, so that many readings know it no better than one.
+fn rounding_a(record: &Record) -> f64 {
+    const LEAST_STEP_A: f64 = 1e-3;
+    /// Coarser than any converter that can tell a heater from none: then currents are few, not rounded.
+    const MOST_STEP_A: f64 = 10e-3;
+    let mut currents: Vec<f64> = record.samples.iter().filter_map(|sample| sample.current_a).collect();
+    currents.sort_by(f64::total_cmp);
+    let steps = currents.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > LEAST_STEP_A / 2.0);
+    let step = steps.fold(MOST_STEP_A, f64::min).max(LEAST_STEP_A);
+    step / 12.0_f64.sqrt()
 }
 
 /// What flows with the heater off before the first pulse.
@@ -189,8 +202,8 @@ fn resistance(record: &Record, drives: &[Drive], others_a: f64) -> Option<Electr
     let siemens = pairs.iter().map(|(v, a)| v * a).sum::<f64>() / squares;
     let rest: f64 = pairs.iter().map(|(v, a)| (a - siemens * v).powi(2)).sum();
     let error_s = (rest / (pairs.len() - 1) as f64 / squares).sqrt();
-    // A converter of 1 mA that always says the same leaves its rounding.
-    let error_s = error_s.max(0.3e-3 / squares.sqrt());
+    // A converter that always says the same leaves its rounding.
+    let error_s = error_s.max(rounding_a(record) / squares.sqrt());
     Some(Electrical { ohm: 1.0 / siemens, error_ohm: error_s / (siemens * siemens) })
 }
 

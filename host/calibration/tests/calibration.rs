@@ -67,6 +67,28 @@ fn sound_hinges_are_measured_within_what_is_accepted_and_the_intervals_cover() {
 }
 
 #[test]
+fn a_coarse_measurement_of_current_widens_the_intervals_so_that_they_still_cover() {
+    /// A count of the boards' converter.
+    const STEP_A: f64 = 33.0 / 4_095.0;
+    for heater_ohm in [20.0, 22.0, 24.0, 25.0, 26.0, 28.0, 30.0] {
+        let mut subject = default_hinge();
+        subject.hinge.heater_ohm = heater_ohm;
+        subject.config.heaters = vec![subject.hinge];
+        let mut record = driven(&subject, None).record;
+        for current in record.samples.iter_mut().filter_map(|sample| sample.current_a.as_mut()) {
+            // In whole milliamperes, as they are told.
+            *current = ((*current / STEP_A).round() * STEP_A * 1e3).round() / 1e3;
+        }
+        let fit = fit(&record, &subject.nominal).unwrap();
+        for quantity in [Quantity::HeaterResistance, Quantity::ThermalResistance] {
+            let (at, truth) = (fit.value(quantity).unwrap(), subject.truth(quantity));
+            assert!((at.low..=at.high).contains(&truth), "{heater_ohm} ohm, {quantity}: {at:?} for {truth}");
+            assert!(at.high - at.low < 0.3 * truth, "{heater_ohm} ohm, {quantity}: {at:?} says nothing");
+        }
+    }
+}
+
+#[test]
 fn a_hinge_that_breaks_meanwhile_is_given_no_wrong_value() {
     for verdict in faults::all(&Subject::new(SEED, Spread::Plant), &Bounds::default(), 150.0, SEED).unwrap() {
         assert!(!verdict.is_wrong(), "{verdict}");
