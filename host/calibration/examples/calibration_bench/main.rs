@@ -1,9 +1,11 @@
 //! `cargo xtask bench calibration`: random hinges on the simulated plant, calibrated and held against what they are.
 //!
 //! First sound hinges: how near the values come, and whether the intervals cover. Then the same hinges, each with a fault that
-//! comes at some moment: how often a value is said with confidence that is wrong.
+//! comes at some moment: how often a value is said with confidence that is wrong. With `--drift N` instead: hinges that are opened N times
+//! after their calibration, as they were and changed.
 #![expect(clippy::print_stdout, reason = "a table for people")]
 
+mod drifts;
 mod drive;
 mod faults;
 mod hinges;
@@ -38,6 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut spread, mut broken) = (Spread::Plant, None);
     let mut arguments = std::env::args().skip(1);
     let (mut hinges, mut seed, mut picture, mut verbose) = (200, 1, None, false);
+    let mut opened = None;
     while let Some(option) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{option}: expected a value after it"));
         match option.as_str() {
@@ -45,11 +48,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             "--seed" => seed = value()?.parse()?,
             "--picture" => picture = Some(value()?),
             "--broken" => broken = Some(value()?.parse()?),
+            "--drift" => opened = Some(value()?.parse()?),
             "--wide" => spread = Spread::Wide,
             "--verbose" => verbose = true,
             _ => {
                 return Err(format!(
-                    "unknown option `{option}`, expected --hinges N, --broken N, --seed S, --wide, --picture FILE or --verbose"
+                    "unknown option `{option}`, expected --hinges N, --broken N, --drift N, --seed S, --wide, --picture FILE or --verbose"
                 )
                 .into());
             }
@@ -58,6 +62,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bounds = Bounds::default();
     // Far apart, so that one seed's hinges are not another's.
     let subject = |number: u64| Subject::new(seed * 1_000_003 + number, spread);
+    if let Some(runs) = opened {
+        let all: Result<Vec<_>, String> =
+            each(hinges, |number| table::seen(&subject(number), &bounds, runs, seed + number, verbose))
+                .into_iter()
+                .collect();
+        table::drifts(&all?);
+        return Ok(());
+    }
     let sound: Result<Vec<Outcome>, String> =
         each(hinges, |number| outcome::sound(&subject(number), &bounds).map_err(|error| error.to_string()))
             .into_iter()
