@@ -246,7 +246,8 @@ impl Judge<'_> {
     fn not_reached(&self, quantity: Quantity) -> Option<Why> {
         // A cosine begins flat: less than this past As is hardly seen.
         const PAST_K: f64 = 2.0;
-        const NEARLY: f64 = 0.98;
+        // It ends flat as well: a foil that doesn't get hotter than where it stops may not have turned as a whole.
+        const BEYOND_K: f64 = 1.0;
         // Less austenite gives back too little heat.
         const HALF: f64 = 0.5;
         let highest_c = self.fitted.iter().map(|moment| moment.foil_c).fold(f64::NEG_INFINITY, f64::max);
@@ -262,7 +263,9 @@ impl Judge<'_> {
             | Quantity::ThermistorLag
             | Quantity::Opening => None,
             Quantity::AusteniteStart => unless(highest_c >= at.as_c + PAST_K, at.as_c + PAST_K),
-            Quantity::AusteniteFinish | Quantity::LatentHeat => unless(turned >= NEARLY, at.af_c),
+            Quantity::AusteniteFinish | Quantity::LatentHeat => {
+                unless(highest_c >= at.af_c + BEYOND_K, at.af_c + BEYOND_K)
+            }
             Quantity::MartensiteStart | Quantity::MartensiteFinish if turned < HALF => unless(false, at.af_c),
             Quantity::MartensiteStart | Quantity::MartensiteFinish => {
                 let hot = self.fitted.iter().position(|moment| moment.austenite >= HALF).unwrap_or(0);

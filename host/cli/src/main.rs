@@ -8,6 +8,7 @@ mod calibration_table;
 mod check;
 mod checked_order;
 mod deploy;
+mod drift;
 mod explain;
 mod export;
 mod failure;

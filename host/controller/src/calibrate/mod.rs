@@ -16,6 +16,7 @@ mod records;
 mod sampler;
 mod thermistors;
 
+pub(crate) use hinge::nominal;
 pub use hinge::{Ending, Hinge};
 pub use records::{Measured, RecordsError, chip_id};
 pub use thermistors::ThermistorError;

@@ -59,6 +59,7 @@ impl Rig {
             Rules { place, rig: &self }.drive(&drive)?;
             self.measured.push(Measured { hinge: hinge.hinge, channel: hinge.channel, drive });
         }
+        self.calibrated_by = Some(calibration.clone());
         Ok(self)
     }
 
