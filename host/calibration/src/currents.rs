@@ -102,7 +102,9 @@ mod tests {
     fn heaters_that_overlap_are_told_apart() {
         let ohms = [25.0, 27.5, 22.0];
         let mut looks = Vec::new();
-        for duties in [vec![], vec![(0, 1.0)], vec![(0, 1.0), (1, 1.0)], vec![(1, 1.0), (2, 1.0)], vec![(2, 0.5)]] {
+        for duties in
+            [vec![], vec![(0, 1.0)], vec![(0, 1.0), (1, 1.0)], vec![(1, 1.0), (2, 1.0)], vec![(2, 0.5)]]
+        {
             looks.extend(std::iter::repeat_n(look(&duties, &ohms), 20));
         }
         let known = BTreeMap::from([(0, 25.0), (1, 25.0), (2, 25.0)]);

@@ -5,7 +5,6 @@ use crate::course::Course;
 use crate::diagnosis::Electrical;
 use crate::estimate::{Interval, Quantity};
 use crate::interval::{SIGMAS, half_interval, value};
-use crate::model::Model;
 use crate::nominal::{Nominal, Transformation};
 use crate::record::Record;
 use crate::residuals::Residuals;
@@ -201,7 +200,9 @@ fn fitted(
         if quantity == Quantity::HeaterResistance && heater.is_none() {
             continue;
         }
-        let (Some(calibrated), Some(best)) = (known.value(quantity), value(&model, quantity)) else { continue };
+        let (Some(calibrated), Some(best)) = (known.value(quantity), value(&model, quantity)) else {
+            continue;
+        };
         let half = half_interval(&space, &solution, quantity, best);
         let sigma = (half / SIGMAS).hypot((calibrated.high - calibrated.low) / 2.0 / CALIBRATED_SIGMAS);
         let chance = CHANCE * sigma;
@@ -282,17 +283,6 @@ impl Known {
             lag_s: or(Quantity::ThermistorLag, nominal.lag_s),
             ..*nominal
         }
-    }
-}
-
-impl From<&Model> for Known {
-    /// All of a model's quantities, as if they were exact.
-    fn from(model: &Model) -> Self {
-        let exact = |quantity| {
-            let value = value(model, quantity)?;
-            Some((quantity, Interval { value, low: value, high: value }))
-        };
-        Self(Quantity::ALL.into_iter().filter_map(exact).collect())
     }
 }
 

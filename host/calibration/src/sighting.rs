@@ -49,9 +49,14 @@ const FIRST_S: f64 = 0.3;
 impl Sighting {
     /// How many looks there were while its heater was on, and how many there would have been at ten a second.
     pub fn seen(&self) -> (usize, usize) {
-        let end_s = self.opened_s.or_else(|| self.looks.last().map(|look| look.t_s)).unwrap_or(self.started_s);
+        let end_s =
+            self.opened_s.or_else(|| self.looks.last().map(|look| look.t_s)).unwrap_or(self.started_s);
         let seen = self.looks.iter().filter(|look| look.doing != Doing::Cooling).count();
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some seconds; it saturates")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "some seconds; it saturates"
+        )]
         let of = ((end_s - self.started_s) * 10.0).round().max(0.0) as usize;
         (seen, of.max(seen))
     }
@@ -162,7 +167,8 @@ mod tests {
     fn a_gap_is_bridged_while_it_is_heated_and_ends_the_record_where_it_was_held() {
         let heated = [look(1.1, Doing::Heating, 1.0), look(3.0, Doing::Heating, 1.0)];
         assert_eq!(drives(&heated, None), [(1.0, 3.0, 1.0)]);
-        let held = [look(1.1, Doing::Heating, 1.0), look(3.0, Doing::Holding, 0.2), look(3.1, Doing::Holding, 0.2)];
+        let held =
+            [look(1.1, Doing::Heating, 1.0), look(3.0, Doing::Holding, 0.2), look(3.1, Doing::Holding, 0.2)];
         let record = Sighting { started_s: 1.0, opened_s: None, looks: held.to_vec() }.record().unwrap();
         assert_eq!(record.samples.len(), 2);
     }

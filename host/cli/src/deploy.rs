@@ -12,8 +12,8 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_controller::{
-    DeployError, Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Sightings,
-    Transport, deploy,
+    DeployError, Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport,
+    Session, Sightings, Transport, deploy,
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_protocol::Millis;
@@ -31,6 +31,7 @@ const ANGLE_TOLERANCE_DEG: f64 = 1.0;
 
 /// Arguments of `zygote deploy`.
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Arguments {
     /// The plan
     #[arg(value_name = "PLAN.fold")]
@@ -188,7 +189,8 @@ impl Order<'_> {
         let log_error = log.error().map(ToString::to_string);
         drop(log);
         let outcome = outcome.map(|report| {
-            let drift = rig.calibrated_by.as_ref().map(|known| sightings.drift(rig, known, schedule.steps.len()));
+            let drift =
+                rig.calibrated_by.as_ref().map(|known| sightings.drift(rig, known, schedule.steps.len()));
             match drift {
                 Some(Ok(drift)) => (RunReport { drift, ..report }, None),
                 Some(Err(error)) => (report, Some(error)),

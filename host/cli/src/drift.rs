@@ -39,7 +39,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::BadInput(anyhow!("{name}: a run of rig {found:?}, expected {expected:?}")));
     }
     let hinges = recording.plan.hinges.len();
-    let drift = recording.sightings().drift(&rig, calibration, hinges).context(name.clone()).or_bad_input()?;
+    let drift =
+        recording.sightings().drift(&rig, calibration, hinges).context(name.clone()).or_bad_input()?;
     if arguments.json {
         let told = json!({ "recording": name, "rig": rig.id, "hinges": drift });
         say(serde_json::to_string_pretty(&told).or_failed()?);
@@ -73,6 +74,9 @@ fn to_recalibrate(drift: &[HingeDrift]) -> impl Iterator<Item = usize> {
 
 /// What calibrates them again; empty where none needs it.
 pub(crate) fn command(rig: &Path, drift: &[HingeDrift]) -> String {
-    let hinges: String = to_recalibrate(drift).map(|hinge| format!(" --hinge {hinge}")).collect();
-    if hinges.is_empty() { hinges } else { format!("zygote calibrate --rig {}{hinges}", rig.display()) }
+    let hinges: Vec<String> = to_recalibrate(drift).map(|hinge| format!("--hinge {hinge}")).collect();
+    if hinges.is_empty() {
+        return String::new();
+    }
+    format!("zygote calibrate --rig {} {}", rig.display(), hinges.join(" "))
 }

@@ -3,6 +3,8 @@
 mod alternatives;
 mod assembly;
 mod calibrate;
+mod calibration_json;
+mod calibration_progress;
 mod calibration_report;
 mod calibration_table;
 mod check;

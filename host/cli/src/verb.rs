@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net,
-    picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table,
+    alternatives, assembly, calibrate, check, deploy, drift, explain, export, flash, fold_back, hil, link,
+    net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table,
     tolerance, torque, view,
 };
 use clap::Subcommand;

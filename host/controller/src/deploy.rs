@@ -130,7 +130,8 @@ pub fn deploy<T: Transport>(
     let info = session.info().clone();
     let (board, firmware) = (info.identity.board.to_string(), info.identity.firmware.to_string());
     let found = CalibratedAt { board: board.clone(), unique_id: chip_id(&info) };
-    if let Some(expected) = schedule.calibrated_at.clone().filter(|at| *at != found && !deployment.any_board) {
+    if let Some(expected) = schedule.calibrated_at.clone().filter(|at| *at != found && !deployment.any_board)
+    {
         return Err(DeployError::OtherBoard { expected, found });
     }
     let fittings = rig.fit(whole.steps.len())?;

@@ -213,7 +213,8 @@ impl Sightings {
 
     /// Looks at the sum of currents in which nothing changes and every heater that is on is seen.
     fn currents(&self, fittings: &[Fitting]) -> Vec<Currents> {
-        let is_heated = |hinge: &usize| matches!(fittings.get(*hinge).map(|fit| fit.drive), Some(Drive::Sma(_)));
+        let is_heated =
+            |hinge: &usize| matches!(fittings.get(*hinge).map(|fit| fit.drive), Some(Drive::Sma(_)));
         // A servo holds from then on.
         let first_other =
             self.started_us.iter().filter(|(hinge, _)| !is_heated(hinge)).map(|(_, at_us)| *at_us).min();

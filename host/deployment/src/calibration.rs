@@ -240,7 +240,8 @@ impl CalibratedHinge {
         let number = |text: &String| {
             let number = text.strip_suffix(unit).and_then(|number| number.trim().parse::<f64>().ok());
             number.filter(|number| number.is_finite()).ok_or_else(|| {
-                let message = format!("hinge {}: {key}: expected a number in {unit}, found {text:?}", self.hinge);
+                let message =
+                    format!("hinge {}: {key}: expected a number in {unit}, found {text:?}", self.hinge);
                 CalibrationError::Parse { message }
             })
         };
@@ -332,7 +333,10 @@ mod tests {
         assert_eq!(hinge.interval("heater_resistance", "ohm"), Ok(Some([25.0, 24.8, 25.4])));
         assert_eq!(hinge.interval("austenite_finish", "degC"), Ok(None));
         let error = hinge.interval("heater_resistance", "K/W").unwrap_err().to_string();
-        assert!(error.contains("hinge 4: heater_resistance: expected a number in K/W, found \"25 ohm\""), "{error}");
+        assert!(
+            error.contains("hinge 4: heater_resistance: expected a number in K/W, found \"25 ohm\""),
+            "{error}"
+        );
     }
 
     #[test]

@@ -61,7 +61,8 @@ impl Since {
 
     /// Of a heater or a thermistor that gives way while it is opened.
     fn fault(self) -> Option<Fault> {
-        (self == Self::ThermistorDrifts).then_some(Fault::ThermistorDrifting { channel: 0, kelvin_per_s: 0.3 })
+        (self == Self::ThermistorDrifts)
+            .then_some(Fault::ThermistorDrifting { channel: 0, kelvin_per_s: 0.3 })
     }
 }
 
@@ -74,6 +75,9 @@ pub(crate) struct Calibrated {
 /// Calibrates a hinge; none where its calibration isn't whole.
 pub(crate) fn calibrate(subject: &Subject, bounds: &Bounds) -> Result<Option<Calibrated>, Box<dyn Error>> {
     let session = drive::session(subject, bounds, None)?;
+    if session.ended.is_some() {
+        return Ok(None);
+    }
     let fit = fit(&session.record, &subject.nominal)?;
     let known: BTreeMap<_, _> =
         Quantity::ALL.into_iter().filter_map(|quantity| Some((quantity, fit.value(quantity)?))).collect();

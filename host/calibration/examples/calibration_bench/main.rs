@@ -64,10 +64,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Far apart, so that one seed's hinges are not another's.
     let subject = |number: u64| Subject::new(seed * 1_000_003 + first + number, spread);
     if let Some(runs) = opened {
-        let all: Result<Vec<_>, String> =
-            each(hinges, |number| table::seen(&subject(number), &bounds, runs, seed + first + number, verbose))
-                .into_iter()
-                .collect();
+        let all: Result<Vec<_>, String> = each(hinges, |number| {
+            table::seen(&subject(number), &bounds, runs, seed + first + number, verbose)
+        })
+        .into_iter()
+        .collect();
         table::drifts(&all?);
         return Ok(());
     }
@@ -88,7 +89,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let lengths: Vec<f64> = sound.iter().map(|outcome| outcome.length_s).collect();
     let broken: Result<Vec<Vec<faults::Verdict>>, String> = each(broken.unwrap_or(hinges), |number| {
         let length_s = lengths.get(usize::try_from(number).unwrap_or(0)).copied().unwrap_or(100.0);
-        faults::all(&subject(number), &bounds, length_s, seed + first + number).map_err(|error| error.to_string())
+        faults::all(&subject(number), &bounds, length_s, seed + first + number)
+            .map_err(|error| error.to_string())
     })
     .into_iter()
     .collect();

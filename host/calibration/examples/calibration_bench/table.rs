@@ -109,8 +109,7 @@ pub(crate) fn seen(
     let mut all = Vec::new();
     for since in Since::ALL {
         for run in 0..runs {
-            let drift =
-                drifts::opened(subject, &calibrated, since, seed * 1_000 + run).map_err(text)?;
+            let drift = drifts::opened(subject, &calibrated, since, seed * 1_000 + run).map_err(text)?;
             if verbose && (since == Since::Nothing) != (drift == Drift::Keep) {
                 println!("{seed} {since:?}: {drift:?}");
             }

@@ -125,7 +125,8 @@ impl Schedule {
         }
         let calibrated_at = rig.calibrated_by.as_ref().map(Calibration::at);
         if self.calibrated_at != calibrated_at {
-            let (schedule, rig) = (by_calibration(self.calibrated_at.as_ref()), by_calibration(calibrated_at.as_ref()));
+            let (schedule, rig) =
+                (by_calibration(self.calibrated_at.as_ref()), by_calibration(calibrated_at.as_ref()));
             return Err(VerifyError::OtherCalibration { schedule, rig });
         }
         let limit = Milliamps::at_most(rig.supply.limit);

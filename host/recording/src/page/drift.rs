@@ -5,7 +5,9 @@ use crate::run::Run;
 use zygote_controller::{DriftVerdict, HingeDrift};
 
 pub(super) fn section(page: &mut Html, run: &Run<'_>) {
-    let Some(report) = run.recording.report.as_ref().filter(|report| !report.drift.is_empty()) else { return };
+    let Some(report) = run.recording.report.as_ref().filter(|report| !report.drift.is_empty()) else {
+        return;
+    };
     let of = |verdict| report.drift.iter().filter(move |hinge| hinge.verdict == verdict);
     page.add(format_args!(
         "<section><h2>Calibration</h2><p>{} of {} hinges are as they were measured.</p>\n",
