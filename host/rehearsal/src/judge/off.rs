@@ -18,7 +18,16 @@ const WATCHDOG: Millis = Millis(500);
 /// S7: three samples, one tick until they are taken and one in which the third acts.
 const OVER_CURRENT: Millis = Millis(5 * TICK.0);
 
-pub(super) fn judge(rehearsed: &Rehearsed) -> Vec<Breach> {
+/// Whose current a dead thermistor ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ends {
+    /// That of all hinges of the program.
+    All,
+    /// That of its own: a program may leave the others' out.
+    Own,
+}
+
+pub(super) fn judge(rehearsed: &Rehearsed, ends: Ends) -> Vec<Breach> {
     let witness = &rehearsed.witness;
     let mut breaches = Vec::new();
     for span in &witness.unarmed {
@@ -39,7 +48,7 @@ pub(super) fn judge(rehearsed: &Rehearsed) -> Vec<Breach> {
         }
     }
     for (at, what) in rehearsed.script.happened() {
-        let Some((rule, deadline)) = deadline(witness, at, what) else { continue };
+        let Some((rule, deadline)) = deadline(witness, at, what, ends) else { continue };
         let deadline = deadline.max(stuck_until(rehearsed, at));
         // Armed anew after the cause is another matter, which S2 and S11 judge; but not for a sensor that is still dead.
         let anew = |span: &Span| {
@@ -68,13 +77,16 @@ fn stuck_until(rehearsed: &Rehearsed, at: Micros) -> Micros {
 
 /// The rule after which everything must be off, and by when; for causes that ask for it whatever else is the case. A lost
 /// link is judged by the host's last frame, not here.
-fn deadline(witness: &Witness, at: Micros, what: &What) -> Option<(&'static str, Micros)> {
+fn deadline(witness: &Witness, at: Micros, what: &What, ends: Ends) -> Option<(&'static str, Micros)> {
     match what {
         What::Break(Fault::ThermistorOpen(channel) | Fault::ThermistorShorted(channel)) => {
             let used = |hinge: &&HingeTruth| hinge.kind == Kind::Sma && hinge.channel == *channel;
-            witness.hinges.iter().find(used)?;
+            let hinge = witness.hinges.iter().find(used)?;
             // Guards look while something is armed.
-            let armed = witness.energised.iter().find(|span| span.to > at)?;
+            let armed = match ends {
+                Ends::All => witness.energised.iter().find(|span| span.to > at)?,
+                Ends::Own => hinge.heated.iter().find(|span| span.to > at.plus(SENSOR))?,
+            };
             Some(("S5", at.max(armed.from).plus(SENSOR)))
         }
         What::Reset(_) => Some(("S1", at)),
