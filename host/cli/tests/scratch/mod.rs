@@ -33,6 +33,11 @@ impl Scratch {
         Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }
 
+    #[allow(dead_code, reason = "not every test needs a path")]
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
     #[allow(dead_code, reason = "not every test reads files")]
     pub(crate) fn read(&self, name: &str) -> String {
         String::from_utf8(self.bytes(name)).unwrap()
