@@ -60,7 +60,13 @@ fn a_fish_goes_into_a_folder_as_everything_that_a_workshop_needs() {
     let expected = "assembly.html bom.csv bom.json crease.fold cut-1.dxf cut-1.svg cut-2.dxf cut-2.svg cut-3.dxf cut-3.svg cut-4.dxf \
                     cut-4.svg deployment.glb net.svg plan.fold target.glb zygote.stl";
     assert_eq!(files.join(" "), expected);
-    assert_eq!(run.output.lines().count(), files.len(), "a line a file: {}", run.output);
+    assert_eq!(
+        run.output.lines().count(),
+        files.len() - 6,
+        "a line a file, and one for all sheets: {}",
+        run.output
+    );
+    assert!(run.output.contains("made/cut-1.svg to made/cut-4.svg: "), "{}", run.output);
     assert_eq!(place.bytes("made/plan.fold"), place.bytes("fish.fold"));
     let stl = place.bytes("made/zygote.stl");
     let triangles = u32::from_le_bytes(stl[80..84].try_into().unwrap()) as usize;

@@ -62,11 +62,27 @@ pub(crate) struct Arguments {
     sizes: Sizes,
 }
 
-/// A file to be, and what the user reads of it.
+/// A file to be, or several of one kind, and what the user reads of them.
 struct Made {
-    path: PathBuf,
-    bytes: Vec<u8>,
+    files: Vec<(PathBuf, Vec<u8>)>,
     told: String,
+}
+
+impl Made {
+    fn one(path: PathBuf, bytes: Vec<u8>, told: impl Into<String>) -> Self {
+        Self { files: vec![(path, bytes)], told: told.into() }
+    }
+
+    /// What the user reads.
+    fn line(&self) -> String {
+        let names: Vec<_> = self.files.iter().map(|(path, _)| path.display().to_string()).collect();
+        let names = match names.as_slice() {
+            [first, .., last] => format!("{first} to {last}"),
+            _ => names.concat(),
+        };
+        let size: usize = self.files.iter().map(|(_, bytes)| bytes.len()).sum();
+        format!("{names}: {} kB, {}", size.div_ceil(1000), self.told)
+    }
 }
 
 /// What is made from.
@@ -92,22 +108,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let (panel, note) = arguments.sizes.panel(&plan);
     let source = Source { name, plan: &plan, sizes: &arguments.sizes, panel, drives };
-    let mut made = Vec::new();
-    for (what, path) in wanted {
-        made.extend(source.make(what, &path)?);
-    }
+    let each = wanted.iter().map(|(what, path)| source.make(*what, path));
+    let mut made = each.collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &arguments.all {
         let bytes = fs::read(&arguments.plan).with_context(|| source.name.clone()).or_bad_input()?;
-        made.insert(0, Made { path: folder.join("plan.fold"), bytes, told: "the plan itself".to_owned() });
+        made.insert(0, Made::one(folder.join("plan.fold"), bytes, "the plan itself"));
     }
-    if let Some(twice) = twice(&made) {
+    let told: Vec<_> = made.iter().map(Made::line).collect();
+    let files: Vec<_> = made.into_iter().flat_map(|made| made.files).collect();
+    if let Some(twice) = twice(&files) {
         return Err(Failure::BadInput(anyhow!("{}: asked for twice", twice.display())));
     }
-    let told: Vec<_> = made
-        .iter()
-        .map(|made| format!("{}: {} kB, {}", made.path.display(), made.bytes.len().div_ceil(1000), made.told))
-        .collect();
-    let files: Vec<_> = made.into_iter().map(|made| (made.path, made.bytes)).collect();
     write_files(arguments.all.as_deref(), &files)?;
     for line in told.into_iter().chain(note) {
         say(line);
@@ -176,15 +187,15 @@ impl Arguments {
 }
 
 /// A path that two files would have.
-fn twice(made: &[Made]) -> Option<&Path> {
+fn twice(files: &[(PathBuf, Vec<u8>)]) -> Option<&Path> {
     let mut seen = BTreeSet::new();
-    made.iter().map(|made| made.path.as_path()).find(|path| !seen.insert(*path))
+    files.iter().map(|(path, _)| path.as_path()).find(|path| !seen.insert(*path))
 }
 
 impl Source<'_> {
-    fn make(&self, what: What, path: &Path) -> Result<Vec<Made>, Failure> {
+    fn make(&self, what: What, path: &Path) -> Result<Made, Failure> {
         let refused = || format!("{}: cannot be exported", self.name);
-        let one = |bytes: Vec<u8>, told: String| Ok(vec![Made { path: path.to_owned(), bytes, told }]);
+        let one = |bytes: Vec<u8>, told: String| Ok(Made::one(path.to_owned(), bytes, told));
         let bill = || Bill::new(self.plan, &self.panel, self.drives.as_ref());
         let pieces = || format!("{} pieces", bill().total);
         match what {
@@ -244,7 +255,7 @@ impl Source<'_> {
         &self,
         path: &Path,
         write: impl Fn(&zygote_fabrication::Drawing) -> Vec<u8>,
-    ) -> Result<Vec<Made>, Failure> {
+    ) -> Result<Made, Failure> {
         let drawings = sheets(self.plan, &self.panel, &self.sizes.sheet())
             .with_context(|| format!("{}: cannot be cut", self.name))
             .or_bad_input()?;
@@ -258,11 +269,8 @@ impl Source<'_> {
                 path.with_file_name(format!("{stem}-{number:0width$}.{ending}"))
             }
         };
-        let made = drawings.iter().enumerate().map(|(index, drawing)| Made {
-            path: named(index + 1),
-            bytes: write(drawing),
-            told: format!("sheet {} of {count}", index + 1),
-        });
-        Ok(made.collect())
+        let files = drawings.iter().enumerate().map(|(index, drawing)| (named(index + 1), write(drawing)));
+        let sheets = if count == 1 { "1 sheet".to_owned() } else { format!("{count} sheets") };
+        Ok(Made { files: files.collect(), told: sheets })
     }
 }
