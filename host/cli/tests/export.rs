@@ -76,7 +76,7 @@ fn a_fish_goes_into_a_folder_as_everything_that_a_workshop_needs() {
     assert!(of_stl.contains("180.2 x 180.2 x 107.9 mm; 184 of 368 magnet holes open towards"), "{of_stl}");
     let bill = place.read("made/bom.csv");
     assert!(bill.contains("\nthermistor,\"simulated\",91\n"), "{bill}");
-    assert!(place.read("made/assembly.html").contains("channel 90."));
+    assert!(place.read("made/assembly.html").contains(", sma at simulated, channel 90."));
     // The same again, over what is there.
     let again = place.zygote(&["export", "fish.fold", "--rig", &rig, "--all", "made"]);
     assert_eq!((again.code, again.output), (0, run.output));

@@ -113,8 +113,8 @@ fn every_hinge_is_mounted_once_at_its_side_when_both_its_panels_are_there() {
             } else {
                 expected.side.opposite()
             };
-            assert!(told.contains(&format!("side {}, to ", side.letter())), "{told}");
-            assert!(told.contains(&format!("opens to {}°.", expected.opening_deg)), "{told}");
+            assert!(told.contains(&format!(" at {} to ", side.letter())), "{told}");
+            assert!(told.contains(&format!(" {}°.", expected.opening_deg)), "{told}");
         }
         assert_eq!(card.matches("class=\"bar").count(), card.matches("<li>Hinge ").count());
     }

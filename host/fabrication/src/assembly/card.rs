@@ -58,7 +58,7 @@ pub(super) fn card(about: &Assembly<'_>, mounts: &[Mounts], step: &Step) -> Stri
             .map_or_else(String::new, |words| format!(", {words}"));
         let _infallible = write!(
             html,
-            "<li>Hinge {hinge}, side {}, to {to} {}: {}, opens to {opening_deg}°{}.</li>",
+            "<li>Hinge {hinge} at {} to {to} {}: {} {opening_deg}°{}.</li>",
             side.letter(),
             towards.name(),
             fold.name(),
