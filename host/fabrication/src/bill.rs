@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use zygote_deployment::{Fitting, Kind, Rig, Tree, TreeError, table};
-use zygote_stacking::Plan;
+use zygote_stacking::{HingeKind, Plan};
 
 /// What a rig gives to each hinge of a plan.
 #[derive(Debug, Clone)]
@@ -81,10 +81,10 @@ impl Bill {
         let mut hinges: BTreeMap<_, usize> = BTreeMap::new();
         for (number, hinge) in plan.hinges.iter().enumerate() {
             let drive = drives.and_then(|drives| drives.fittings.get(number)).map(|fit| fit.drive.kind());
-            *hinges.entry((drive, table::kind_name(hinge.kind), hinge.opening_deg)).or_default() += 1;
+            *hinges.entry((drive, hinge.kind == HingeKind::Bridge, hinge.opening_deg)).or_default() += 1;
         }
-        // Folds before bridges.
-        for ((drive, kind, angle), count) in hinges.iter().rev() {
+        for ((drive, is_bridge, angle), count) in &hinges {
+            let kind = table::kind_name(if *is_bridge { HingeKind::Bridge } else { HingeKind::Fold });
             let drive = drive.map_or(String::new(), |drive| format!("{}, ", drive.name()));
             add("hinge", format!("{drive}{kind}, opens to {angle} degrees"), *count);
         }

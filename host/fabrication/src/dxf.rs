@@ -1,4 +1,4 @@
-//! A sheet as DXF of AutoCAD release 12, ASCII: the least that every cutter's program reads. Two layers, CUT in red and ENGRAVE in
+//! A sheet as DXF release 12, ASCII: the least that every cutter's program reads. Two layers, CUT in red and ENGRAVE in
 //! blue, of polylines and circles. The format has no unit: one unit is a millimetre.
 
 use crate::drawing::{Cut, Drawing, short};

@@ -90,7 +90,7 @@ pub fn sheets(plan: &Plan, panel: &Panel, sheet: &Sheet) -> Result<Vec<Drawing>,
         };
         for (place, (pile, height, number)) in on_it.iter().enumerate() {
             let [column, row] = [place % columns, place / columns].map(|cell| cell as f64);
-            let first = sheet.margin_mm + (sheet.kerf_mm + panel.side_mm) / 2.0;
+            let first = sheet.margin_mm + f64::midpoint(sheet.kerf_mm, panel.side_mm);
             // From the upper left, as one reads.
             let middle = [first + column * step, sheet.height_mm - first - row * step];
             cut(&mut drawing, &panel, sheet.kerf_mm, middle);
@@ -133,7 +133,7 @@ impl Sheet {
 }
 
 fn cut(drawing: &mut Drawing, panel: &Panel, kerf: f64, middle: [f64; 2]) {
-    let half = (panel.side_mm + kerf) / 2.0;
+    let half = f64::midpoint(panel.side_mm, kerf);
     // Holes first: what is cut out moves.
     if let Holes::Screws(screws) = panel.holes {
         for [x, y] in screws.middles(panel.side_mm) {

@@ -4,7 +4,7 @@ use super::Assembly;
 use crate::mounts::{Mount, Mounts, Towards, by_side};
 use crate::svg::escaped;
 use std::fmt::Write as _;
-use zygote_stacking::{Plan, Side};
+use zygote_stacking::Plan;
 
 /// How a reader understands the cards.
 pub(super) const HOW: &str = "<p>One card a panel, in the order in which they are laid: a layer of all piles, then the next. You look from above; \
@@ -75,13 +75,13 @@ pub(super) fn card(about: &Assembly<'_>, mounts: &[Mounts], step: &Step) -> Stri
 /// The panel from above with its hinges.
 fn drawing(panel: usize, up: &str, mounts: &Mounts, now: impl Fn(&Mount) -> bool) -> String {
     let mut svg = format!(
-        "<svg viewBox=\"0 0 100 100\"><rect class=\"panel {up}\" x=\"12\" y=\"12\" width=\"76\" height=\"76\"/>\
-         <text class=\"north\" x=\"50\" y=\"8\">N</text><text class=\"number\" x=\"50\" y=\"57\">{panel}</text>"
+        "<svg viewBox=\"0 0 100 100\"><rect class=\"panel {up}\" x=\"20\" y=\"20\" width=\"60\" height=\"60\"/>\
+         <text class=\"north\" x=\"10\" y=\"14\">N ↑</text><text class=\"number\" x=\"50\" y=\"57\">{panel}</text>"
     );
     for (side, mount) in by_side(mounts) {
         let [x, y] = side.step().map(f64::from);
-        let (middle_x, middle_y) = (50.0 + 38.0 * x, 50.0 - 38.0 * y);
-        let (along_x, along_y) = (26.0 * y.abs(), 26.0 * x.abs());
+        let (middle_x, middle_y) = (50.0 + 30.0 * x, 50.0 - 30.0 * y);
+        let (along_x, along_y) = (21.0 * y.abs(), 21.0 * x.abs());
         let class = if now(&mount) {
             let broad = if mount.towards == Towards::Beside { " bridge" } else { "" };
             format!("bar{broad} {}", mount.fold.name())
@@ -97,13 +97,8 @@ fn drawing(panel: usize, up: &str, mounts: &Mounts, now: impl Fn(&Mount) -> bool
             middle_y + along_y
         );
         if now(&mount) {
-            // Inside of the bar, and clear of the number.
-            let [x, y] = match side {
-                Side::E => [76.0, 53.0],
-                Side::N => [50.0, 28.0],
-                Side::W => [25.0, 53.0],
-                Side::S => [50.0, 80.0],
-            };
+            // Beyond the bar.
+            let [x, y] = [50.0 + 41.0 * x, 53.0 - 40.0 * y];
             let _infallible = write!(svg, "<text x=\"{x}\" y=\"{y}\">{}°</text>", mount.opening_deg);
         }
     }

@@ -92,9 +92,9 @@ fn cover(pages: &mut Pages, about: &Assembly<'_>, both: &str) {
         );
     }
     let how = if plan.panels() > MOST_CARDS { rows::HOW } else { card::HOW };
-    let _infallible = write!(
+    let _infallible = writeln!(
         html,
-        "<div class=\"two\"><div><h2>To have</h2><table>{have}</table></div><div><h2>How to read it</h2>{how}</div></div>\n"
+        "<div class=\"two\"><div><h2>To have</h2><table>{have}</table></div><div><h2>How to read it</h2>{how}</div></div>"
     );
     let piles = rows::piles(plan);
     if piles.len() <= PILES_ON_THE_COVER {
@@ -121,9 +121,9 @@ impl Pages {
         );
         let count = self.pages.len();
         for (number, page) in self.pages.iter().enumerate() {
-            let _infallible = write!(
+            let _infallible = writeln!(
                 html,
-                "<section class=\"page\">{page}<footer><span>{title}</span><span>{} of {count}</span></footer></section>\n",
+                "<section class=\"page\">{page}<footer><span>{title}</span><span>{} of {count}</span></footer></section>",
                 number + 1
             );
         }
