@@ -75,7 +75,7 @@ pub(super) fn card(about: &Assembly<'_>, mounts: &[Mounts], step: &Step) -> Stri
 /// The panel from above with its hinges.
 fn drawing(panel: usize, up: &str, mounts: &Mounts, now: impl Fn(&Mount) -> bool) -> String {
     let mut svg = format!(
-        "<svg viewBox=\"0 0 100 100\"><rect class=\"panel {up}\" x=\"20\" y=\"20\" width=\"60\" height=\"60\"/>\
+        "<svg viewBox=\"-14 0 128 100\"><rect class=\"panel {up}\" x=\"20\" y=\"20\" width=\"60\" height=\"60\"/>\
          <text class=\"north\" x=\"10\" y=\"14\">N ↑</text><text class=\"number\" x=\"50\" y=\"57\">{panel}</text>"
     );
     for (side, mount) in by_side(mounts) {
@@ -98,7 +98,7 @@ fn drawing(panel: usize, up: &str, mounts: &Mounts, now: impl Fn(&Mount) -> bool
         );
         if now(&mount) {
             // Beyond the bar.
-            let [x, y] = [50.0 + 41.0 * x, 53.0 - 40.0 * y];
+            let [x, y] = [50.0 + 45.0 * x, 53.0 - 40.0 * y];
             let _infallible = write!(svg, "<text x=\"{x}\" y=\"{y}\">{}°</text>", mount.opening_deg);
         }
     }
