@@ -239,14 +239,15 @@ impl Source<'_> {
         let stack = Stack::new(self.plan, &self.panel, gaps)?;
         let [x, y, z] = stack.box_mm;
         let triangles = stack.body.triangles.len();
-        let mut told =
-            format!("{} panels of {triangles} triangles, {x:.1} x {y:.1} x {z:.1} mm", stack.middles.len());
-        if stack.hidden_holes > 0 {
-            let (hidden, all) = (stack.hidden_holes, 4 * stack.middles.len());
-            told += &format!(
-                "; {hidden} of {all} magnet holes open towards another pile: a magnet gets in where --pile-gap is its length or more"
-            );
-        }
+        let count = stack.middles.len();
+        let hidden = match stack.hidden_holes {
+            0 => String::new(),
+            hidden => format!(
+                "; {hidden} of {} magnet holes open towards another pile: a magnet gets in where --pile-gap is its length or more",
+                4 * count
+            ),
+        };
+        let told = format!("{count} panels of {triangles} triangles, {x:.1} x {y:.1} x {z:.1} mm{hidden}");
         Ok((stl(&stack, gaps)?, told))
     }
 
