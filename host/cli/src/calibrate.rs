@@ -245,7 +245,25 @@ fn measure<T: Transport>(
     write_file(&files.report, page.as_bytes())?;
     say(table(&calibrated));
     say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
-    judge(&calibrated)
+    let taught = teach(&mut session, rig, files, &result);
+    judge(&calibrated)?;
+    taught
+}
+
+/// Has the board keep what is known of hinges that are calibrated, so that it refuses steps that don't go with it.
+fn teach<T: Transport>(
+    session: &mut Session<T>,
+    rig: &Rig,
+    files: &Files,
+    result: &zygote_deployment::Calibration,
+) -> Result<(), Failure> {
+    let mut sound = result.clone();
+    sound.hinges.retain(|hinge| hinge.verdict == CalibrationVerdict::Calibrated);
+    let rig = rig.clone().calibrated(&files.result.display().to_string(), &sound).or_failed()?;
+    let known = zygote_controller::known(&rig).or_failed()?;
+    let new = session.calibrate(&known).or_failed()?;
+    say(format_args!("the board keeps what is known of {} heater(s), {new} of them new", known.len()));
+    Ok(())
 }
 
 fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {

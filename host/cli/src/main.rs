@@ -2,6 +2,7 @@
 
 mod alternatives;
 mod assembly;
+mod board_calibrations;
 mod calibrate;
 mod calibration_report;
 mod calibration_table;

@@ -2,7 +2,7 @@
 
 use super::rules::Rules;
 use super::settings::{Drive, SmaSettings};
-use super::{Kelvins, Place, Rig, RigError};
+use super::{Amps, Celsius, Kelvins, Place, Rig, RigError, Seconds};
 use crate::calibration::{Calibration, CalibrationError, Known};
 use crate::heating;
 
@@ -17,6 +17,22 @@ pub(super) struct Measured {
     /// The heater that it was measured with.
     pub(super) channel: u16,
     pub(super) drive: Drive,
+    pub(super) heater: Option<HeaterExpectation>,
+}
+
+/// What a board is to expect of a heater that was measured, so that it can refuse steps that don't go with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeaterExpectation {
+    /// Heater and thermistor.
+    pub channel: u16,
+    /// Current at full power.
+    pub current: Amps,
+    /// Rise at full power within [`Self::window`], the supply loaded to its limit.
+    pub gain: Kelvins,
+    /// From switching on.
+    pub window: Seconds,
+    /// Austenite finish, where it was seen.
+    pub opens_at: Option<Celsius>,
 }
 
 /// A rig and a calibration that don't go together.
@@ -55,11 +71,18 @@ impl Rig {
                 let (expected, found) = (expected.to_owned(), found.to_owned());
                 return Err(RigError::Value { place: place("hinge"), expected, found }.into());
             };
-            let drive = Drive::Sma(measured(&self, &sma, &known));
+            let channel = hinge.channel;
+            let (sma, heater) = measured(&self, &sma, &known, channel);
+            let drive = Drive::Sma(sma);
             Rules { place, rig: &self }.drive(&drive)?;
-            self.measured.push(Measured { hinge: hinge.hinge, channel: hinge.channel, drive });
+            self.measured.push(Measured { hinge: hinge.hinge, channel, drive, heater });
         }
         Ok(self)
+    }
+
+    /// What the board is to expect of the heaters that were measured.
+    pub fn heater_expectations(&self) -> impl Iterator<Item = HeaterExpectation> {
+        self.measured.iter().filter_map(|measured| measured.heater)
     }
 
     /// What the rig file says of a hinge.
@@ -69,8 +92,13 @@ impl Rig {
     }
 }
 
-/// The settings with all that is known in their place.
-fn measured(rig: &Rig, sma: &SmaSettings, known: &Known) -> SmaSettings {
+/// The settings with all that is known in their place, and what is to be expected of the heater if enough is known.
+fn measured(
+    rig: &Rig,
+    sma: &SmaSettings,
+    known: &Known,
+    channel: u16,
+) -> (SmaSettings, Option<HeaterExpectation>) {
     let sma = SmaSettings {
         heater_resistance: known.heater_resistance.unwrap_or(sma.heater_resistance),
         thermal_resistance: known.foil_rise.unwrap_or(sma.thermal_resistance),
@@ -82,10 +110,12 @@ fn measured(rig: &Rig, sma: &SmaSettings, known: &Known) -> SmaSettings {
     };
     // Without these there is nothing to expect.
     if known.heater_resistance.and(known.foil_rise).and(known.time_constant).is_none() {
-        return sma;
+        return (sma, None);
     }
-    let gain = heating::gain(rig, &sma, sma.gain_window);
-    SmaSettings { min_gain: Kelvins(gain.0 * LEAST_SHARE), ..sma }
+    let (gain, window) = (heating::gain(rig, &sma, sma.gain_window), sma.gain_window);
+    let (current, opens_at) = (heating::current(rig, &sma), known.austenite_finish);
+    let expected = HeaterExpectation { channel, current, gain, window, opens_at };
+    (SmaSettings { min_gain: Kelvins(gain.0 * LEAST_SHARE), ..sma }, Some(expected))
 }
 
 #[cfg(test)]
@@ -144,6 +174,9 @@ mod tests {
         let settled = 4.9_f64.powi(2) / 27.0 * 120.0;
         let expected = settled * (1.0 - (-0.5_f64).exp());
         assert!((sma.min_gain.0 - expected / 3.0).abs() < 1e-9, "{} K, {expected} K", sma.min_gain.0);
+        let heater = rig.heater_expectations().next().unwrap();
+        assert!((heater.gain.0 - expected).abs() < 1e-9 && (heater.current.0 - 5.0 / 27.0).abs() < 1e-9);
+        assert_eq!((heater.channel, heater.window, heater.opens_at), (0, Seconds(3.0), Some(Celsius(80.0))));
     }
 
     #[test]
@@ -152,6 +185,7 @@ mod tests {
         let before = sma_of(&rig).min_gain;
         let after = rig.calibrated("c.toml", &calibration(0, &MEASURED[..1])).unwrap();
         assert_eq!((sma_of(&after).min_gain, sma_of(&after).heater_resistance.0), (before, 27.0));
+        assert_eq!(after.heater_expectations().next(), None);
     }
 
     #[test]

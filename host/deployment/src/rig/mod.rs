@@ -15,7 +15,7 @@ mod settings;
 mod sim;
 mod weight;
 
-pub use calibrated::CalibratedError;
+pub use calibrated::{CalibratedError, HeaterExpectation};
 pub use error::RigError;
 pub use fit::Fitting;
 pub use places::Place;
