@@ -1,17 +1,17 @@
 //! `zygote calibrate`: measures the shape-memory hinges of a rig, at a board or on the simulator, and writes what they are like.
 
+use crate::calibration_progress::Display;
 use crate::calibration_table::{essential, hinge_of, table};
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
 use crate::paced_line::PacedLine;
-use crate::{calibration_report, identity, input, interrupt};
+use crate::{calibration_json, calibration_report, identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_calibration::Fit;
-use zygote_controller::calibrate::{self, Calibration, Hinge, Measured, Progress};
+use zygote_controller::calibrate::{self, Calibration, Hinge, Measured};
 use zygote_controller::{SerialTransport, Session, Transport};
 use zygote_deployment::{CalibratedHinge, CalibrationVerdict, Drive, Fitting, Rig};
 use zygote_protocol::Millis;
@@ -23,6 +23,7 @@ const SIMULATED: u32 = 1;
 
 /// Arguments of `zygote calibrate`.
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Arguments {
     /// The rig
     #[arg(long, value_name = "RIG.toml")]
@@ -46,6 +47,9 @@ pub(crate) struct Arguments {
     /// Leave the safe state of an earlier fault or stop: you have looked at the rig
     #[arg(long)]
     clear: bool,
+    /// Print what was calibrated as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 /// Where the rig is.
@@ -216,7 +220,7 @@ fn measure<T: Transport>(
         clear: arguments.clear,
         interrupted: &|| interrupted.load(Ordering::Relaxed),
     };
-    let bar = progress_bar(hinges.len());
+    let display = Display::new();
     let mut keep = |hinges: &[Hinge]| {
         let json =
             serde_json::to_vec(&Measured::new(&rig.id, &info, hinges)).map_err(|error| error.to_string())?;
@@ -225,9 +229,9 @@ fn measure<T: Transport>(
         })
     };
     let outcome = calibrate::calibrate(&mut session, &calibration, &mut hinges, &mut keep, &mut |progress| {
-        show(&bar, progress);
+        display.show(progress);
     });
-    bar.finish_and_clear();
+    display.close();
     outcome.or_failed()?;
     let firmware = format!("{} {}", info.identity.firmware, info.identity.git);
     let date = identity::now_utc();
@@ -243,11 +247,21 @@ fn measure<T: Transport>(
     write_file(&files.result, result.text().or_failed()?.as_bytes())?;
     let page = calibration_report::page(rig, &date, &hinges, &fits, &calibrated);
     write_file(&files.report, page.as_bytes())?;
-    say(table(&calibrated));
-    say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
+    if arguments.json {
+        let files = [&files.result, &files.records, &files.report].map(PathBuf::as_path);
+        let document = calibration_json::document(&rig.id, &result.at(), &calibrated, files).or_failed()?;
+        say(serde_json::to_string_pretty(&document).or_failed()?);
+    } else {
+        say(table(&calibrated));
+        say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
+    }
     let taught = teach(&mut session, rig, files, &result);
     judge(&calibrated)?;
-    taught
+    let taught = taught?;
+    if !arguments.json {
+        say(taught);
+    }
+    Ok(())
 }
 
 /// Has the board keep what is known of hinges that are calibrated, so that it refuses steps that don't go with it.
@@ -256,14 +270,13 @@ fn teach<T: Transport>(
     rig: &Rig,
     files: &Files,
     result: &zygote_deployment::Calibration,
-) -> Result<(), Failure> {
+) -> Result<String, Failure> {
     let mut sound = result.clone();
     sound.hinges.retain(|hinge| hinge.verdict == CalibrationVerdict::Calibrated);
     let rig = rig.clone().calibrated(&files.result.display().to_string(), &sound).or_failed()?;
     let known = zygote_controller::known(&rig).or_failed()?;
     let new = session.calibrate(&known).or_failed()?;
-    say(format_args!("the board keeps what is known of {} heater(s), {new} of them new", known.len()));
-    Ok(())
+    Ok(format!("the board keeps what is known of {} heater(s), {new} of them new", known.len()))
 }
 
 fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {
@@ -276,18 +289,4 @@ fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {
         })
         .collect();
     if bad.is_empty() { Ok(()) } else { Err(Failure::Failed(anyhow!("{}", bad.join("\n       ")))) }
-}
-
-fn progress_bar(hinges: usize) -> ProgressBar {
-    let bar = ProgressBar::new(u64::try_from(hinges).unwrap_or(u64::MAX));
-    // The template is a constant of ours; if it were wrong, the plain bar would do.
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} hinges, {elapsed}  {msg}") {
-        bar.set_style(style);
-    }
-    bar
-}
-
-fn show(bar: &ProgressBar, progress: &Progress) {
-    bar.set_position(u64::try_from(progress.ended).unwrap_or(u64::MAX));
-    bar.set_message(progress.doing.clone());
 }

@@ -4,6 +4,7 @@
 //!   Schedule --program--> steps --Session--> link --Transport--> MCU (serial port, simulator)
 //!                                   |
 //!                                   +--> deploy --> Progress (for a display), EventLog, RunReport
+//!                                   |                                            +--> drift: hinges against their calibration
 //!                                   +--> calibrate --> records of hinges, which `zygote_calibration` fits
 //! ```
 //!
@@ -13,6 +14,7 @@ pub mod calibrate;
 mod clock;
 mod connect;
 mod deploy;
+mod drift;
 mod estimate;
 mod event_log;
 mod inbox;
@@ -28,6 +30,7 @@ mod transport;
 pub use clock::{Clock, ClockFit, Exchange};
 pub use connect::ConnectError;
 pub use deploy::{DeployError, Deployment, Progress, deploy};
+pub use drift::{DriftError, DriftVerdict, HingeDrift, SeenMotion, Sightings};
 pub use estimate::MotionState;
 pub use event_log::{EventLog, Observer, Record, Times};
 pub use inbox::Notice;

@@ -3,6 +3,7 @@
 use crate::rig::{Celsius, Joules, KelvinsPerWatt, Ohms, Seconds};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// The one version of the file.
 const VERSION: u32 = 1;
@@ -21,6 +22,22 @@ pub struct Calibration {
     /// The hinges, by number.
     #[serde(rename = "hinge")]
     pub hinges: Vec<CalibratedHinge>,
+}
+
+/// A board that hinges were measured at, and a schedule is made for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CalibratedAt {
+    /// The board's name.
+    pub board: String,
+    /// The chip's unique id, in hex.
+    pub unique_id: String,
+}
+
+impl fmt::Display for CalibratedAt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.board, self.unique_id)
+    }
 }
 
 /// One hinge.
@@ -169,14 +186,19 @@ impl Calibration {
         Ok(calibration)
     }
 
+    /// The board that it was made at.
+    pub fn at(&self) -> CalibratedAt {
+        CalibratedAt { board: self.board.clone(), unique_id: self.unique_id.clone() }
+    }
+
     /// Takes in hinges that were measured at the same board; what the file had of them before is replaced.
     ///
     /// # Errors
     /// [`CalibrationError::OtherBoard`]; nothing is taken in then.
     pub fn take_in(&mut self, newer: Self) -> Result<(), CalibrationError> {
-        let name = |of: &Self| format!("{} {}", of.board, of.unique_id);
-        if name(self) != name(&newer) {
-            return Err(CalibrationError::OtherBoard { expected: name(&newer), found: name(self) });
+        if self.at() != newer.at() {
+            let (expected, found) = (newer.at().to_string(), self.at().to_string());
+            return Err(CalibrationError::OtherBoard { expected, found });
         }
         self.hinges.retain(|old| newer.hinges.iter().all(|new| new.hinge != old.hinge));
         self.hinges.extend(newer.hinges);
@@ -207,6 +229,23 @@ impl CalibratedHinge {
             austenite_start: self.value("austenite_start")?,
             austenite_finish: self.value("austenite_finish")?,
         })
+    }
+
+    /// Value, lower and upper end of a quantity in `unit`; none where the measurement doesn't have it.
+    ///
+    /// # Errors
+    /// Numbers that can't be read, or with another unit.
+    pub fn interval(&self, key: &str, unit: &str) -> Result<Option<[f64; 3]>, CalibrationError> {
+        let Some(Calibrated::Known { value, low, high }) = self.values.get(key) else { return Ok(None) };
+        let number = |text: &String| {
+            let number = text.strip_suffix(unit).and_then(|number| number.trim().parse::<f64>().ok());
+            number.filter(|number| number.is_finite()).ok_or_else(|| {
+                let message =
+                    format!("hinge {}: {key}: expected a number in {unit}, found {text:?}", self.hinge);
+                CalibrationError::Parse { message }
+            })
+        };
+        Ok(Some([number(value)?, number(low)?, number(high)?]))
     }
 
     fn value<T: std::str::FromStr<Err: std::fmt::Display>>(
@@ -286,6 +325,18 @@ mod tests {
         let ohm =
             |hinge: &CalibratedHinge| (hinge.hinge, hinge.known().unwrap().heater_resistance.unwrap().0);
         assert_eq!(calibration.hinges.iter().map(ohm).collect::<Vec<_>>(), [(1, 2.0), (2, 1.0), (3, 26.0)]);
+    }
+
+    #[test]
+    fn an_interval_is_read_in_its_own_unit_and_in_no_other() {
+        let hinge = hinge(4, "25 ohm");
+        assert_eq!(hinge.interval("heater_resistance", "ohm"), Ok(Some([25.0, 24.8, 25.4])));
+        assert_eq!(hinge.interval("austenite_finish", "degC"), Ok(None));
+        let error = hinge.interval("heater_resistance", "K/W").unwrap_err().to_string();
+        assert!(
+            error.contains("hinge 4: heater_resistance: expected a number in K/W, found \"25 ohm\""),
+            "{error}"
+        );
     }
 
     #[test]

@@ -32,7 +32,7 @@ mod tolerance;
 mod tree;
 
 pub use calibration::{
-    Calibrated, CalibratedHinge, Calibration, CalibrationError, CalibrationVerdict, Known,
+    Calibrated, CalibratedAt, CalibratedHinge, Calibration, CalibrationError, CalibrationVerdict, Known,
 };
 pub use kinematics::Kinematics;
 pub use order::{Order, WaitError};

@@ -77,6 +77,7 @@ impl Rig {
             Rules { place, rig: &self }.drive(&drive)?;
             self.measured.push(Measured { hinge: hinge.hinge, channel, drive, heater });
         }
+        self.calibrated_by = Some(calibration.clone());
         Ok(self)
     }
 

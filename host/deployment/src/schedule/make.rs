@@ -5,6 +5,7 @@ use super::problem::{Problem, Task};
 use super::search::{self, Found};
 use super::waiting::{self, Gathering, Waiting};
 use super::{Fingerprint, Milliamps, Millis, Schedule, Step, VERSION, greedy, lower_bound};
+use crate::calibration::Calibration;
 use crate::order::Order;
 use crate::rig::{Fitting, Kind, Rig, RigError};
 use crate::tree::{Tree, TreeError};
@@ -137,6 +138,7 @@ impl Schedule {
         Ok(Self {
             version: VERSION,
             rig: rig.id.clone(),
+            calibrated_at: rig.calibrated_by.as_ref().map(Calibration::at),
             plan_crc64: Fingerprint::of(plan),
             order_crc64: Fingerprint::of_order(&steps),
             certificate: None,

@@ -101,6 +101,52 @@ impl Motion {
     }
 }
 
+impl Motion {
+    /// What of it isn't as expected, in words.
+    pub(crate) fn differences(&self, expected: &Self) -> String {
+        match (self, expected) {
+            (Self::Sma(found), Self::Sma(expected)) => told(&[
+                ("target", celsius(expected.target), celsius(found.target)),
+                ("hold", expected.hold.to_string(), found.hold.to_string()),
+                ("longest on-time", expected.max_on.to_string(), found.max_on.to_string()),
+                ("highest temperature", celsius(expected.max_temperature), celsius(found.max_temperature)),
+                ("cooled temperature", celsius(expected.cool_to), celsius(found.cool_to)),
+                ("rest", expected.rest.to_string(), found.rest.to_string()),
+                ("least gain", kelvins(expected.min_gain), kelvins(found.min_gain)),
+                ("gain window", expected.gain_window.to_string(), found.gain_window.to_string()),
+            ]),
+            (Self::Servo(found), Self::Servo(expected)) => told(&[
+                ("first pulse", expected.from.to_string(), found.from.to_string()),
+                ("last pulse", expected.to.to_string(), found.to.to_string()),
+                ("time of the move", expected.duration.to_string(), found.duration.to_string()),
+                ("settling time", expected.settle.to_string(), found.settle.to_string()),
+            ]),
+            (Self::Spring(found), Self::Spring(expected)) => told(&[
+                ("pulse", expected.pulse.to_string(), found.pulse.to_string()),
+                ("settling time", expected.settle.to_string(), found.settle.to_string()),
+            ]),
+            (Self::Sma(_) | Self::Servo(_) | Self::Spring(_), _) => {
+                format!("it should be a {} hinge, found a {}", expected.kind().name(), self.kind().name())
+            }
+        }
+    }
+}
+
+fn celsius(temperature: CentiCelsius) -> String {
+    format!("{:.2} °C", f64::from(temperature.0) / 100.0)
+}
+
+fn kelvins(difference: CentiCelsius) -> String {
+    format!("{:.2} K", f64::from(difference.0) / 100.0)
+}
+
+/// Of names with what is expected and what was found, those that differ.
+fn told(rows: &[(&str, String, String)]) -> String {
+    let differ = rows.iter().filter(|(_, expected, found)| expected != found);
+    let words = differ.map(|(name, expected, found)| format!("{name} should be {expected}, found {found}"));
+    words.collect::<Vec<_>>().join(", ")
+}
+
 /// Opening angle of a hinge in the zygote, degrees: a fold is closed, a bridge is flat.
 pub(crate) const fn start_opening_deg(hinge: &Hinge) -> u16 {
     match hinge.kind {
