@@ -1,7 +1,7 @@
-//! A rig whose shape-memory hinges are known by measurement: what a calibration found counts more than what the rig file says of them.
+//! A rig whose hinges are known by measurement: what a calibration found counts more than what the rig file says of them.
 
 use super::rules::Rules;
-use super::settings::{Drive, SmaSettings};
+use super::settings::{Drive, ServoSettings, SmaSettings};
 use super::{Kelvins, Place, Rig, RigError};
 use crate::calibration::{Calibration, CalibrationError, Known};
 use crate::heating;
@@ -14,7 +14,7 @@ const LEAST_SHARE: f64 = 1.0 / 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Measured {
     pub(super) hinge: usize,
-    /// The heater that it was measured with.
+    /// The heater or servo that it was measured with.
     pub(super) channel: u16,
     pub(super) drive: Drive,
 }
@@ -39,23 +39,29 @@ impl Rig {
     /// The rig with what a calibration, read from `file`, knows of its hinges. Hinges that it knows nothing of stay as they were.
     ///
     /// # Errors
-    /// [`CalibratedError`]: a hinge that is no shape-memory hinge here, or whose measured values break a rule of the rig file, such as a
+    /// [`CalibratedError`]: a hinge that is of another kind here, or whose measured values break a rule of the rig file, such as a
     /// target that isn't above its austenite finish.
     pub fn calibrated(mut self, file: &str, calibration: &Calibration) -> Result<Self, CalibratedError> {
         for hinge in &calibration.hinges {
             let unread = |error| CalibratedError::Calibration { file: file.to_owned(), error };
-            let known = hinge.known().map_err(unread)?;
             let place = |key: &str| Place {
                 file: file.to_owned(),
                 line: None,
                 key: format!("hinge {}: {key}", hinge.hinge),
             };
-            let Drive::Sma(sma) = self.drive_of(hinge.hinge) else {
-                let (expected, found) = ("a shape-memory hinge of the rig", "a hinge of another kind");
-                let (expected, found) = (expected.to_owned(), found.to_owned());
-                return Err(RigError::Value { place: place("hinge"), expected, found }.into());
+            let drive = match (self.drive_of(hinge.hinge), &hinge.servo) {
+                (Drive::Sma(sma), None) => Drive::Sma(measured(&self, &sma, &hinge.known().map_err(unread)?)),
+                (Drive::Servo(servo), Some(measured)) => {
+                    let curve = measured.curve(hinge.hinge).map_err(unread)?;
+                    Drive::Servo(ServoSettings { curve, ..servo })
+                }
+                (Drive::Sma(_) | Drive::Servo(_) | Drive::Spring(_), servo) => {
+                    let kind = if servo.is_some() { "servo" } else { "shape-memory" };
+                    let (expected, found) = (format!("a {kind} hinge of the rig"), "a hinge of another kind");
+                    let found = found.to_owned();
+                    return Err(RigError::Value { place: place("hinge"), expected, found }.into());
+                }
             };
-            let drive = Drive::Sma(measured(&self, &sma, &known));
             Rules { place, rig: &self }.drive(&drive)?;
             self.measured.push(Measured { hinge: hinge.hinge, channel: hinge.channel, drive });
         }
@@ -63,7 +69,7 @@ impl Rig {
     }
 
     /// What the rig file says of a hinge.
-    fn drive_of(&self, hinge: usize) -> Drive {
+    pub(super) fn drive_of(&self, hinge: usize) -> Drive {
         let own = self.entries.iter().find(|entry| entry.hinge == hinge);
         own.map_or_else(|| self.shared(self.default_kind), |entry| entry.drive)
     }
