@@ -3,6 +3,7 @@
 mod alternatives;
 mod assembly;
 mod calibrate;
+mod calibrate_servo;
 mod calibration_report;
 mod calibration_table;
 mod check;
@@ -37,6 +38,8 @@ mod replay;
 mod report;
 mod schedule;
 mod sequence;
+mod servo_protractor;
+mod servo_report;
 mod settings;
 mod sim;
 mod table;

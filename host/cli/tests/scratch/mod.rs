@@ -2,8 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its folder fails")]
 
+use std::io::Write;
 use std::path::PathBuf;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::{env, fs};
 
 /// A folder that is empty at first and gone at the end.
@@ -29,6 +30,20 @@ impl Scratch {
     pub(crate) fn zygote(&self, arguments: &[&str]) -> Run {
         let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
         let run = command.args(arguments).current_dir(&self.folder).output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
+    }
+
+    /// The command with something on its standard input, which then ends.
+    #[allow(dead_code, reason = "not every test tells it something")]
+    pub(crate) fn zygote_told(&self, arguments: &[&str], input: &str) -> Run {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
+        command.args(arguments).current_dir(&self.folder);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // It may have ended without reading all of it.
+        child.stdin.take().unwrap().write_all(input.as_bytes()).ok();
+        let run = child.wait_with_output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }

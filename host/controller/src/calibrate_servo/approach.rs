@@ -7,12 +7,12 @@ use super::{Reading, ServoCalibration, ServoError};
 use crate::calibrate::limits;
 use crate::deploy::{start, upload};
 use crate::inbox::Notice;
-use crate::session::Session;
+use crate::session::{RequestError, Session};
 use crate::{DeployError, Transport};
 use zygote_calibration::servo::Look;
 use zygote_protocol::{
-    Action, Command, EventKind, FaultCode, Micros, Milliamps, Millis, Phase, RigId, State, Step, Telemetry,
-    Turn,
+    Action, Command, EventKind, FaultCode, Micros, Milliamps, Millis, Phase, RefusalCode, RigId, State, Step,
+    Telemetry, Turn,
 };
 
 /// What nobody knows is approached at this.
@@ -25,6 +25,8 @@ const HOLD: Millis = Millis(600_000);
 const PUSHES: u32 = 2;
 /// .. but not in so many messages of telemetry one after the other, a tenth of a second each.
 const PUSHES_FOR: u32 = 4;
+/// So many at the beginning of a way may tell of the time before it.
+const UNSURE: u32 = 2;
 /// The line is looked at so often.
 const WATCH: Millis = Millis(50);
 
@@ -54,14 +56,17 @@ pub(super) struct Approach<'a> {
     run: u32,
     /// The hinge that was led last, and its pulse.
     stands: Option<(usize, u16)>,
-    /// The least current seen since arming: of what is always on.
+    /// The least current seen while a servo was led or held: of what is always on.
     least: Option<Milliamps>,
+    /// Messages of telemetry since this way began.
+    heard: u32,
+    /// Of them the last, in which the current was high.
     high: u32,
 }
 
 impl<'a> Approach<'a> {
     pub(super) fn new(calibration: &'a ServoCalibration<'a>) -> Self {
-        Self { calibration, run: calibration.run, stands: None, least: None, high: 0 }
+        Self { calibration, run: calibration.run, stands: None, least: None, heard: 0, high: 0 }
     }
 
     /// The pulse that a hinge was led to last.
@@ -100,7 +105,7 @@ impl<'a> Approach<'a> {
         let rig = self.calibration.rig;
         let id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
         self.run = self.run.wrapping_add(1);
-        (self.high, self.stands) = (0, None);
+        (self.heard, self.high, self.stands) = (0, 0, None);
         upload(session, self.run, &id, &[step])?;
         start(session, self.run, id, limits(rig, session.info().ceiling))?;
         let there = session.now().plus(duration).plus(ARRIVE);
@@ -211,8 +216,12 @@ impl<'a> Approach<'a> {
 
     /// Everything off.
     fn disarm<T: Transport>(&mut self, session: &mut Session<T>) -> Result<(), ServoError> {
-        session.request(Command::Disarm)?;
-        Ok(())
+        match session.request(Command::Disarm) {
+            Ok(_) => Ok(()),
+            // The program has just ended by itself.
+            Err(RequestError::Refused { refusal, .. }) if refusal.code == RefusalCode::WrongState => Ok(()),
+            Err(error) => Err(error.into()),
+        }
     }
 
     /// Takes the news until `until`, or until something happens. What pushes is relaxed.
@@ -228,7 +237,7 @@ impl<'a> Approach<'a> {
             if (self.calibration.interrupted)() {
                 return Err(ServoError::Interrupted);
             }
-            let notice = session.notice(until).map_err(crate::RequestError::from)?;
+            let notice = session.notice(until).map_err(RequestError::from)?;
             match notice {
                 None => return Ok(Seen::Nothing),
                 Some(Notice::Fault(fault)) if fault.code == FaultCode::OverCurrent => {
@@ -253,8 +262,9 @@ impl<'a> Approach<'a> {
 
     /// The pulse at which it pushes, once that is sure.
     fn pushes(&mut self, hinge: &ServoHinge, pulse_us: u16, telemetry: &Telemetry) -> Option<u16> {
-        if telemetry.state != State::Running {
-            self.high = 0;
+        self.heard += 1;
+        // The current is that of a moment before: of nothing yet, at first.
+        if telemetry.state != State::Running || self.heard <= UNSURE {
             return None;
         }
         let least = self.least.map_or(telemetry.current, |least| least.min(telemetry.current));
