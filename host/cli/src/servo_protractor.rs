@@ -116,7 +116,16 @@ impl CommandSensor {
         Self { command: command.to_owned(), patience: PATIENCE, running: None }
     }
 
+    /// Ends a command that nobody waits for any more.
+    fn end(&mut self) {
+        if let Some(mut running) = self.running.take() {
+            // It may have ended by itself meanwhile.
+            running.child.kill().and_then(|()| running.child.wait()).ok();
+        }
+    }
+
     fn start(&mut self, question: &Question) -> std::io::Result<()> {
+        self.end();
         let mut shell = Command::new("sh");
         shell.args(["-c", &self.command]).stdin(Stdio::null()).stdout(Stdio::piped());
         shell.env("ZYGOTE_HINGE", question.hinge.to_string());
@@ -147,9 +156,7 @@ impl CommandSensor {
                 thread::sleep(SOON);
                 return Ok(None);
             }
-            // It may have ended just now; that it was too late is what the user must know.
-            running.child.kill().and_then(|()| running.child.wait()).ok();
-            self.running = None;
+            self.end();
             return Err(ReadingError::TooLong { command: command(), after: self.patience });
         };
         if !status.success() {
@@ -185,10 +192,7 @@ impl<T> Protractor<T> for CommandSensor {
 
 impl Drop for CommandSensor {
     fn drop(&mut self) {
-        if let Some(running) = &mut self.running {
-            // Whether it has ended by itself meanwhile is of no interest.
-            running.child.kill().and_then(|()| running.child.wait()).ok();
-        }
+        self.end();
     }
 }
 

@@ -66,7 +66,11 @@ fn the_truth_of_simulated_servos_is_found_by_a_sensor_and_what_they_dont_reach_i
         let rig = RIG.replace("\"2 A\"", &format!("\"{limit}\""));
         let run = calibrate(&place, &rig, &["--servo", "0", "--servo", "1", "--sensor", "sim"], "");
         assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
-        assert!(run.output.contains("hinge 1 has no pulse for 270 deg: the hinge ends at 200.0 deg"), "{}", run.output);
+        assert!(
+            run.output.contains("hinge 1 has no pulse for 270 deg: the hinge ends at 200.0 deg"),
+            "{}",
+            run.output
+        );
         assert_eq!((points(&place, 0).len(), points(&place, 1).len()), (4, 3), "{}", run.output);
         for hinge in [0, 1] {
             for (angle, pulse) in points(&place, hinge) {
@@ -99,7 +103,12 @@ fn typed_angles_are_taken_and_what_isnt_understood_or_cant_be_is_asked_again() {
         assert!(run.output.contains(told), "{told} isn't in {}", run.output);
     }
     let found = points(&place, 2);
-    assert_eq!(found.iter().map(|(angle, _)| *angle).collect::<Vec<_>>(), [0.0, 90.0, 180.0, 270.0], "{}", run.output);
+    assert_eq!(
+        found.iter().map(|(angle, _)| *angle).collect::<Vec<_>>(),
+        [0.0, 90.0, 180.0, 270.0],
+        "{}",
+        run.output
+    );
     assert_eq!(found[1].1, 1172.0, "as it was nudged");
     let text = place.read("calibration.toml");
     assert!(text.starts_with("version = 2") && text.contains("verdict = \"calibrated\""), "{text}");
@@ -127,7 +136,10 @@ fn what_is_no_servo_no_sensor_or_no_calibration_of_this_rig_is_refused() {
     let place = Scratch::new("calibrates_no_servo");
     for (arguments, message) in [
         (&["--servo", "16"][..], "--servo 16: expected a hinge of the rig, 0 to 15"),
-        (&["--hinge", "2"], "--hinge 2: expected a shape-memory hinge, found a servo; for servos there is --servo"),
+        (
+            &["--hinge", "2"],
+            "--hinge 2: expected a shape-memory hinge, found a servo; for servos there is --servo",
+        ),
         (&["--servo", "2", "--resume"], "calibration.servos.json: cannot be read"),
         (&["--servo", "2", "--tolerance", "0"], "--tolerance 0: expected 0.1 to 10 degrees"),
         (&["--servo", "2", "--hinge", "1"], "cannot be used with"),
@@ -141,15 +153,30 @@ fn what_is_no_servo_no_sensor_or_no_calibration_of_this_rig_is_refused() {
         ("echo 17", "it turned by 0 deg between"),
     ] {
         let run = calibrate(&place, RIG, &["--servo", "2", "--restart", "--sensor", sensor], "");
-        assert_eq!((run.code, run.errors.contains(message)), (1, true), "{message}: {}{}", run.output, run.errors);
+        assert_eq!(
+            (run.code, run.errors.contains(message)),
+            (1, true),
+            "{message}: {}{}",
+            run.output,
+            run.errors
+        );
     }
-    let sma = RIG.replace("servos = 16", "servos = 16\nheaters = 1") + "[[hinge]]\nhinge = 5\nkind = \"sma\"\n";
+    let sma =
+        RIG.replace("servos = 16", "servos = 16\nheaters = 1") + "[[hinge]]\nhinge = 5\nkind = \"sma\"\n";
     let run = calibrate(&place, &sma, &["--servo", "5", "--restart"], "");
-    assert!(run.code == 2 && run.errors.contains("--servo 5: expected a servo hinge, found a sma"), "{}", run.errors);
-    let narrow = RIG.to_owned() + "[servo]\nshortest_pulse = \"2700 us\"\nlongest_pulse = \"3 ms\"\npulse_0 = \"2800 us\"\npulse_270 = \"2900 us\"\n";
+    assert!(
+        run.code == 2 && run.errors.contains("--servo 5: expected a servo hinge, found a sma"),
+        "{}",
+        run.errors
+    );
+    let narrow = RIG.to_owned()
+        + "[servo]\nshortest_pulse = \"2700 us\"\nlongest_pulse = \"3 ms\"\npulse_0 = \"2800 us\"\npulse_270 = \"2900 us\"\n";
     let run = calibrate(&place, &narrow, &["--servo", "2", "--restart"], "");
     assert!(run.code == 2 && run.errors.contains("leave nothing of the 400 to 2600 us"), "{}", run.errors);
-    place.write("calibration.toml", "version = 2\nrig = \"other\"\nboard = \"b\"\nunique_id = \"00\"\nhinge = []\n");
+    place.write(
+        "calibration.toml",
+        "version = 2\nrig = \"other\"\nboard = \"b\"\nunique_id = \"00\"\nhinge = []\n",
+    );
     let run = calibrate(&place, RIG, &["--servo", "2", "--restart"], "");
     assert!(run.code == 2 && run.errors.contains("a calibration of rig \"other\""), "{}", run.errors);
 }
@@ -189,10 +216,17 @@ fn a_run_is_driven_by_the_pulses_that_were_found_and_an_angle_out_of_reach_is_no
     let pulses = [&step["motion"]["from_us"], &step["motion"]["to_us"]].map(|pulse| pulse.as_f64().unwrap());
     assert_eq!(pulses, [found[0].1, found[1].1]);
     let run = place.zygote(&deploy);
-    assert!(run.code == 0 && run.output.contains("true angles: 13 of 13 hinges"), "{}{}", run.output, run.errors);
+    assert!(
+        run.code == 0 && run.output.contains("true angles: 13 of 13 hinges"),
+        "{}{}",
+        run.output,
+        run.errors
+    );
 
     let text = place.read("calibration.toml");
-    let cut = text.replace("angle = \"90 deg\"", "angle = \"60 deg\"").replace("angle = \"180 deg\"", "angle = \"61 deg\"");
+    let cut = text
+        .replace("angle = \"90 deg\"", "angle = \"60 deg\"")
+        .replace("angle = \"180 deg\"", "angle = \"61 deg\"");
     place.write("calibration.toml", &cut.replace("angle = \"270 deg\"", "angle = \"62 deg\""));
     let run = place.zygote(&schedule);
     assert_eq!(run.code, 2, "{}", run.output);

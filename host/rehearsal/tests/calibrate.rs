@@ -6,8 +6,8 @@ use std::io;
 use zygote_calibration::Quantity;
 use zygote_controller::calibrate::{CalibrateError, Calibration, Ending, Hinge, Measured, calibrate};
 use zygote_controller::calibrate_servo::{
-    Answer, MeasuredServos, Protractor, Question, ReadingError, ServoCalibration, ServoEnding, ServoError, ServoHinge,
-    calibrate_servos,
+    Answer, MeasuredServos, Protractor, Question, ReadingError, ServoCalibration, ServoEnding, ServoError,
+    ServoHinge, calibrate_servos,
 };
 use zygote_controller::{Session, Transport};
 use zygote_core::Duty;
@@ -231,7 +231,8 @@ fn run_servos(kept: Option<&[u8]>, breaks: Option<(u64, Broken)>, answers: usize
     let fittings = rig.fit(3).unwrap();
     let board = zygote_rehearsal::bench(&rig, &fittings, 1).unwrap();
     let breaks = breaks.map(|(seconds, broken)| (Micros(seconds * 1_000_000), broken));
-    let mut session = Session::connect(Bench { board, breaks, arrived: Vec::new() }, 1, Millis(1_000)).unwrap();
+    let mut session =
+        Session::connect(Bench { board, breaks, arrived: Vec::new() }, 1, Millis(1_000)).unwrap();
     let settings = session.settings().unwrap().in_force;
     let info = session.info().clone();
     let hinge = |number: usize| match fittings[number].drive {
@@ -297,7 +298,8 @@ fn s8_a_stop_button_ends_a_servo_calibration_with_its_fault() {
     let fittings = rig.fit(3).unwrap();
     let mut board = zygote_rehearsal::bench(&rig, &fittings, 1).unwrap();
     board.press_stop(true);
-    let mut session = Session::connect(Bench { board, breaks: None, arrived: Vec::new() }, 1, Millis(1_000)).unwrap();
+    let mut session =
+        Session::connect(Bench { board, breaks: None, arrived: Vec::new() }, 1, Millis(1_000)).unwrap();
     let settings = session.settings().unwrap().in_force;
     let Drive::Servo(servo) = fittings[0].drive else { panic!("no servo") };
     let mut hinges = vec![ServoHinge::new(0, 0, servo, &settings, 1.0)];
