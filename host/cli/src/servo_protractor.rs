@@ -146,37 +146,36 @@ impl CommandSensor {
 
     /// The number, once the command has ended.
     fn look(&mut self) -> Result<Option<f64>, ReadingError> {
-        let command = || self.command.clone();
+        let (command, after) = (self.command.clone(), self.patience);
         let Some(running) = &mut self.running else { return Ok(None) };
-        let failed = |code: String| ReadingError::Failed { command: command(), code };
-        let late = running.since.elapsed() > Duration::from_millis(self.patience.0.into());
-        let status = running.child.try_wait().map_err(|error| failed(error.to_string()))?;
-        let Some(status) = status else {
-            if !late {
+        let late = running.since.elapsed() > Duration::from_millis(after.0.into());
+        let status = match running.child.try_wait() {
+            Ok(Some(status)) => status,
+            Ok(None) if !late => {
                 thread::sleep(SOON);
                 return Ok(None);
             }
-            self.end();
-            return Err(ReadingError::TooLong { command: command(), after: self.patience });
+            Ok(None) => {
+                self.end();
+                return Err(ReadingError::TooLong { command, after });
+            }
+            Err(error) => return Err(ReadingError::Failed { command, code: error.to_string() }),
         };
         if !status.success() {
             let code = status.code().map_or_else(|| status.to_string(), |code| format!("exit code {code}"));
-            return Err(failed(code));
+            return Err(ReadingError::Failed { command, code });
         }
         // Something that it has started may still hold its output.
         let printed = match running.printed.recv_timeout(SOON) {
             Ok(printed) => printed,
             Err(RecvTimeoutError::Timeout) if !late => return Ok(None),
             Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {
-                return Err(ReadingError::TooLong { command: command(), after: self.patience });
+                return Err(ReadingError::TooLong { command, after });
             }
         };
         self.running = None;
         let printed = String::from_utf8_lossy(&printed).trim().to_owned();
-        match degrees(&printed) {
-            Some(degrees) => Ok(Some(degrees)),
-            None => Err(ReadingError::NoNumber { command: self.command.clone(), printed }),
-        }
+        degrees(&printed).map(Some).ok_or(ReadingError::NoNumber { command, printed })
     }
 }
 
