@@ -248,7 +248,8 @@ mod tests {
 
     /// Asks a command until it answers.
     fn read(command: &str, patience: Millis) -> Result<f64, String> {
-        let mut sensor = CommandSensor { patience, ..CommandSensor::new(command) };
+        let mut sensor = CommandSensor::new(command);
+        sensor.patience = patience;
         let question = Question { hinge: 3, pulse_us: 1167, for_deg: Some(90), relaxed: false, again: None };
         sensor.start(&question).unwrap();
         loop {
