@@ -34,10 +34,10 @@ hinge = 1
 servo = { pulse_0 = "2450 us", pulse_270 = "560 us", stop_high = "200 deg" }
 "#;
 
-/// What hinges 0 and 1 truly do, with the slack of their play.
+/// What hinges 0 and 1 truly do, but for their play.
 fn truth_deg(hinge: usize, pulse_us: f64) -> f64 {
     let (at_0_us, at_270_us, bow_deg) = [(620.0, 2380.0, 14.0), (2450.0, 560.0, 0.0)][hinge];
-    let share = (pulse_us - at_0_us) / (at_270_us - at_0_us);
+    let share = ((pulse_us - at_0_us) / (at_270_us - at_0_us)).clamp(0.0, 1.0);
     270.0 * share + 4.0 * bow_deg * share * (1.0 - share)
 }
 
@@ -191,8 +191,8 @@ fn a_run_is_driven_by_the_pulses_that_were_found_and_an_angle_out_of_reach_is_no
     let hinges = plan["zygote:hinges"].as_array().unwrap();
     let opening = |hinge: &Value| hinge["opening_deg"].as_u64().unwrap();
     let bowed = hinges.iter().position(|hinge| hinge["kind"] == "fold" && opening(hinge) == 90).unwrap();
-    let rig = RIG.replace("hinge = 0", &format!("hinge = {bowed}"));
-    let rig = rig.split("[[sim.hinge]]\nhinge = 1\n").next().unwrap().to_owned();
+    let one = RIG.split("[[sim.hinge]]\nhinge = 1\n").next().unwrap();
+    let rig = one.replace("hinge = 0", &format!("hinge = {bowed}"));
     let calibrated = rig.replace("# calibration", "calibration = \"calibration.toml\"");
     let schedule = ["schedule", "plan.fold", "--rig", "rig.toml", "-o", "schedule.json"];
     let deploy = ["deploy", "plan.fold", "--schedule", "schedule.json", "--rig", "rig.toml", "--sim"];
