@@ -27,7 +27,7 @@ default = "servo"
 
 [[sim.hinge]]
 hinge = 0
-servo = { pulse_0 = "620 us", pulse_270 = "2380 us", bow = "14 deg", backlash = "0.5 deg" }
+servo = { pulse_0 = "620 us", pulse_270 = "2380 us", bow = "14 deg", backlash = "0.2 deg" }
 
 [[sim.hinge]]
 hinge = 1
@@ -75,7 +75,7 @@ fn the_truth_of_simulated_servos_is_found_by_a_sensor_and_what_they_dont_reach_i
         for hinge in [0, 1] {
             for (angle, pulse) in points(&place, hinge) {
                 let off = truth_deg(hinge, pulse) - angle;
-                assert!(off.abs() <= 1.0 + 0.25 + 0.4, "hinge {hinge}: {off} at {angle}, {pulse} us");
+                assert!(off.abs() <= 1.0 + 0.1 + 0.4, "hinge {hinge}: {off} at {angle}, {pulse} us");
             }
         }
         let page = place.read("calibration.servos.html");
