@@ -178,8 +178,10 @@ fn upward(view: &View, target_deg: f64, tolerance_deg: f64) -> Aim {
     if let Some(seen) = nearest().filter(|seen| miss(seen) <= tolerance_deg) {
         return Aim::Found(*seen);
     }
-    let below = view.free.iter().filter(|seen| seen.angle_deg < target_deg).max_by(by_angle);
-    let above = view.free.iter().filter(|seen| seen.angle_deg > target_deg).min_by(by_angle);
+    let below =
+        view.free.iter().filter(|seen| seen.angle_deg < target_deg).max_by(|one, other| by_angle(one, other));
+    let above =
+        view.free.iter().filter(|seen| seen.angle_deg > target_deg).min_by(|one, other| by_angle(one, other));
     let Some(below) = below.or(view.free.last()) else { return Aim::Bound(target_deg) };
     match above {
         Some(above) => between(view, below, above, target_deg),
@@ -187,7 +189,7 @@ fn upward(view: &View, target_deg: f64, tolerance_deg: f64) -> Aim {
     }
 }
 
-fn by_angle(one: &&Seen, other: &&Seen) -> std::cmp::Ordering {
+fn by_angle(one: &Seen, other: &Seen) -> std::cmp::Ordering {
     one.angle_deg.total_cmp(&other.angle_deg)
 }
 
@@ -240,8 +242,11 @@ fn beyond(view: &View, outer: &Seen, target_deg: f64) -> Aim {
 /// An angle at the end stop: a pulse at which the hinge has just not come to it, by the line of what is well inside.
 fn at_the_stop(view: &View, target_deg: f64, stop_deg: f64, tolerance_deg: f64) -> Aim {
     let aim_deg = target_deg.min(stop_deg - 0.25 * tolerance_deg);
-    let inside =
-        view.free.iter().filter(|seen| seen.angle_deg < stop_deg - 2.0 * tolerance_deg).max_by(by_angle);
+    let inside = view
+        .free
+        .iter()
+        .filter(|seen| seen.angle_deg < stop_deg - 2.0 * tolerance_deg)
+        .max_by(|one, other| by_angle(one, other));
     let Some(inside) = inside else { return Aim::Stop(stop_deg) };
     let x = (inside.x + (aim_deg - inside.angle_deg) / view.slope_at(inside)).round();
     let good = |seen: &&Seen| (seen.angle_deg - target_deg).abs() <= tolerance_deg;

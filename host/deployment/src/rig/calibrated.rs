@@ -177,6 +177,56 @@ mod tests {
         assert!(error.starts_with("c.toml: hinge 0: austenite_finish: expected less than target"), "{error}");
     }
 
+    /// A calibration of the servo of hinge 0 at channel `channel`, with pulses in microseconds.
+    fn servo_calibration(channel: u16, points: &[(u16, u16)]) -> Calibration {
+        let point = |(angle, pulse): &(u16, u16)| {
+            format!(
+                "[[hinge.servo.point]]\nangle = \"{angle} deg\"\npulse = \"{pulse} us\"\nread = \"{angle} deg\"\n"
+            )
+        };
+        let text = format!(
+            "version = 2\nrig = \"bench-1\"\nboard = \"b\"\nunique_id = \"00\"\n[[hinge]]\nhinge = 0\nchannel = {channel}\n\
+             date = \"2026-01-02T03:04:05Z\"\nfirmware = \"f\"\nverdict = \"calibrated\"\n[hinge.servo]\ntolerance = \"1 deg\"\n{}",
+            points.iter().map(point).collect::<String>()
+        );
+        Calibration::read(&text, "bench-1").unwrap()
+    }
+
+    const SERVO: &str = "[[hinge]]\nhinge = 0\nkind = \"servo\"\n";
+
+    #[test]
+    fn a_servos_pulses_are_those_that_were_found_and_one_that_failed_keeps_the_rig_files() {
+        let points = [(0, 640), (90, 1100), (180, 1700)];
+        let rig = |calibration| rig(SERVO).calibrated("c.toml", &calibration).unwrap();
+        let curve = |rig: &Rig| match rig.fit(1).unwrap()[0].drive {
+            Drive::Servo(servo) => servo.curve,
+            other => panic!("{other:?}"),
+        };
+        let found = curve(&rig(servo_calibration(0, &points))).unwrap();
+        let pulses: Vec<_> = found.points().iter().map(|(_, pulse)| (pulse.0 * 1e6).round()).collect();
+        assert_eq!(pulses, [640.0, 1100.0, 1700.0]);
+        assert_eq!(curve(&rig(servo_calibration(0, &[]))), None);
+        let moved = rig(servo_calibration(1, &points)).fit(1).unwrap_err().to_string();
+        assert!(moved.contains("expected hinge 0 at channel 0"), "{moved}");
+    }
+
+    #[test]
+    fn pulses_beyond_the_rigs_are_refused_and_so_is_a_servo_that_is_none_here() {
+        let narrow =
+            SERVO.to_owned() + "servo = { shortest_pulse = \"450 us\", longest_pulse = \"2600 us\" }\n";
+        let beyond = rig(&narrow).calibrated("c.toml", &servo_calibration(0, &[(0, 440), (90, 1100)]));
+        let beyond = beyond.unwrap_err().to_string();
+        assert!(
+            beyond.starts_with("c.toml: hinge 0: pulse at 0 deg: expected 0.00045 s to 0.0026 s"),
+            "{beyond}"
+        );
+        let other = rig("").calibrated("c.toml", &servo_calibration(0, &[])).unwrap_err().to_string();
+        assert_eq!(
+            other,
+            "c.toml: hinge 0: hinge: expected a servo hinge of the rig, found a hinge of another kind"
+        );
+    }
+
     #[test]
     fn a_hinge_that_is_a_servo_here_is_refused() {
         let rig = rig("[[hinge]]\nhinge = 0\nkind = \"servo\"\n");
