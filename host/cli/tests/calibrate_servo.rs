@@ -109,7 +109,7 @@ fn typed_angles_are_taken_and_what_isnt_understood_or_cant_be_is_asked_again() {
         "{}",
         run.output
     );
-    assert_eq!(found[1].1, 1172.0, "as it was nudged");
+    assert!((found[1].1 - 1172.0).abs() < 0.5, "as it was nudged: {found:?}");
     let text = place.read("calibration.toml");
     assert!(text.starts_with("version = 2") && text.contains("verdict = \"calibrated\""), "{text}");
 }
@@ -214,7 +214,9 @@ fn a_run_is_driven_by_the_pulses_that_were_found_and_an_angle_out_of_reach_is_no
     let made: Value = serde_json::from_str(&place.read("schedule.json")).unwrap();
     let step = made["steps"].as_array().unwrap().iter().find(|step| step["hinge"] == bowed).unwrap();
     let pulses = [&step["motion"]["from_us"], &step["motion"]["to_us"]].map(|pulse| pulse.as_f64().unwrap());
-    assert_eq!(pulses, [found[0].1, found[1].1]);
+    for (pulse, (_, found)) in pulses.iter().zip(&found) {
+        assert!((pulse - found).abs() < 0.5, "{pulse} for {found}");
+    }
     let run = place.zygote(&deploy);
     assert!(
         run.code == 0 && run.output.contains("true angles: 13 of 13 hinges"),

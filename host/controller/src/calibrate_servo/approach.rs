@@ -153,7 +153,7 @@ impl<'a> Approach<'a> {
                     protractor.ask(&Question { again: Some(why), ..question.clone() }).map_err(unread)?;
                 }
                 Some(Answer::End) => {
-                    self.disarm(session)?;
+                    disarm(session)?;
                     return self.read_relaxed(session, hinge, pulse_us, question, protractor);
                 }
                 Some(Answer::Stop) => return Err(ServoError::Interrupted),
@@ -209,19 +209,9 @@ impl<'a> Approach<'a> {
         hinge: usize,
         pulse_us: u16,
     ) -> Result<(), ServoError> {
-        self.disarm(session)?;
+        disarm(session)?;
         self.stands = Some((hinge, pulse_us));
         Ok(())
-    }
-
-    /// Everything off.
-    fn disarm<T: Transport>(&mut self, session: &mut Session<T>) -> Result<(), ServoError> {
-        match session.request(Command::Disarm) {
-            Ok(_) => Ok(()),
-            // The program has just ended by itself.
-            Err(RequestError::Refused { refusal, .. }) if refusal.code == RefusalCode::WrongState => Ok(()),
-            Err(error) => Err(error.into()),
-        }
     }
 
     /// Takes the news until `until`, or until something happens. What pushes is relaxed.
@@ -252,7 +242,7 @@ impl<'a> Approach<'a> {
                 }
                 Some(Notice::Telemetry(telemetry)) => {
                     if let Some(pulse_us) = self.pushes(hinge, pulse_us, &telemetry) {
-                        self.disarm(session)?;
+                        disarm(session)?;
                         return Ok(Seen::Pushes(pulse_us));
                     }
                 }
@@ -277,5 +267,15 @@ impl<'a> Approach<'a> {
             Phase::Heating { .. } | Phase::Holding { .. } | Phase::Cooling { .. } | Phase::Releasing => None,
         });
         (self.high >= PUSHES_FOR).then(|| by_then.unwrap_or(pulse_us))
+    }
+}
+
+/// Everything off.
+fn disarm<T: Transport>(session: &mut Session<T>) -> Result<(), ServoError> {
+    match session.request(Command::Disarm) {
+        Ok(_) => Ok(()),
+        // The program has just ended by itself.
+        Err(RequestError::Refused { refusal, .. }) if refusal.code == RefusalCode::WrongState => Ok(()),
+        Err(error) => Err(error.into()),
     }
 }
