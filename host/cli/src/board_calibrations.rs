@@ -1,7 +1,10 @@
-//! What a board keeps of its actuators by measurement, for people and programs.
+//! What a board keeps of its actuators by measurement: told to it, and told by it for people and programs.
 
+use crate::failure::{Failure, OrFail};
 use serde_json::{Value, json};
+use std::path::Path;
 use zygote_controller::{RequestError, Session, Transport};
+use zygote_deployment::{CalibrationVerdict, Rig};
 use zygote_protocol::{Actuator, Calibration};
 
 /// All that the board knows, channel by channel.
@@ -17,6 +20,30 @@ pub(crate) fn of<T: Transport>(session: &mut Session<T>) -> Result<Vec<Calibrati
         }
     }
     Ok(known)
+}
+
+/// Has the board keep what is known of hinges that are calibrated, so that it refuses steps that don't go with it.
+pub(crate) fn teach<T: Transport>(
+    session: &mut Session<T>,
+    rig: &Rig,
+    file: &Path,
+    result: &zygote_deployment::Calibration,
+) -> Result<String, Failure> {
+    let mut sound = result.clone();
+    sound.hinges.retain(|hinge| hinge.verdict == CalibrationVerdict::Calibrated);
+    let rig = rig.clone().calibrated(&file.display().to_string(), &sound).or_failed()?;
+    let known = zygote_controller::known(&rig, &sound).or_failed()?;
+    let new = session.calibrate(&known).or_failed()?;
+    Ok(format!("the board keeps what is known of {} heater(s) and servo(s), {new} of them new", known.len()))
+}
+
+/// Has the board forget what is known of the servos of these channels.
+pub(crate) fn forget<T: Transport>(
+    session: &mut Session<T>,
+    channels: impl Iterator<Item = u16>,
+) -> Result<usize, RequestError> {
+    let nothing: Vec<_> = channels.map(|channel| Calibration::Servo { channel, known: None }).collect();
+    session.calibrate(&nothing)
 }
 
 /// The same actuator, of which nothing is known.

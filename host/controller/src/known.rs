@@ -1,32 +1,49 @@
 //! What a calibrated rig has a board keep of its actuators, so that the board refuses steps that don't go with them (S6, S13).
 
 use std::num::TryFromIntError;
-use zygote_deployment::{HeaterExpectation, Rig};
-use zygote_protocol::{Calibration, CentiCelsius, HeaterCalibration, Milliamps, Millis};
+use zygote_deployment::{CalibrationError, HeaterExpectation, Rig};
+use zygote_protocol::{Calibration, CentiCelsius, HeaterCalibration, Milliamps, Millis, ServoCalibration};
 
 /// Why a board can't keep what was measured.
 #[derive(Debug, thiserror::Error)]
-#[error("heater channel {channel}: what was measured is more than the protocol can carry")]
-pub struct UntoldError {
-    /// The channel.
-    channel: u16,
-    /// Why.
-    #[source]
-    source: TryFromIntError,
+pub enum UntoldError {
+    /// A value far beyond that of any hinge.
+    #[error("heater channel {channel}: what was measured is more than the protocol can carry")]
+    TooLarge {
+        /// The channel.
+        channel: u16,
+        /// Why.
+        #[source]
+        source: TryFromIntError,
+    },
+    /// A value that can't be read.
+    #[error(transparent)]
+    Unread(#[from] CalibrationError),
 }
 
-/// What was measured of the rig's actuators, in the words of the wire.
+/// What was measured of the rig's heaters and servos, in the words of the wire; `rig` is driven by `calibration`.
 ///
 /// # Errors
-/// [`UntoldError`], for values far beyond those of any hinge.
-pub fn known(rig: &Rig) -> Result<Vec<Calibration>, UntoldError> {
-    rig.heater_expectations().map(|heater| of_heater(&heater)).collect()
+/// [`UntoldError`], for values that no hinge has.
+pub fn known(
+    rig: &Rig,
+    calibration: &zygote_deployment::Calibration,
+) -> Result<Vec<Calibration>, UntoldError> {
+    let mut known =
+        rig.heater_expectations().map(|heater| of_heater(&heater)).collect::<Result<Vec<_>, _>>()?;
+    for hinge in &calibration.hinges {
+        if let Some((shortest_us, longest_us)) = hinge.servo_range_us()? {
+            let range = ServoCalibration { shortest_us, longest_us };
+            known.push(Calibration::Servo { channel: hinge.channel, known: Some(range) });
+        }
+    }
+    Ok(known)
 }
 
 /// Rounded so that schedules of the same rig surely go with it: the gain to the nearest as theirs, the current down.
 fn of_heater(heater: &HeaterExpectation) -> Result<Calibration, UntoldError> {
     let channel = heater.channel;
-    let too_large = |source| UntoldError { channel, source };
+    let too_large = |source| UntoldError::TooLarge { channel, source };
     let current = zygote_deployment::Milliamps::at_most(heater.current);
     let gain = zygote_deployment::CentiCelsius::from(heater.gain);
     let window = zygote_deployment::Millis::at_least(heater.window);

@@ -6,11 +6,13 @@
 //!                                   +--> deploy --> Progress (for a display), EventLog, RunReport
 //!                                   |                                            +--> drift: hinges against their calibration
 //!                                   +--> calibrate --> records of hinges, which `zygote_calibration` fits
+//!                                   +--> calibrate_servo --> readings of servos, of which it makes pulses
 //! ```
 //!
 //! The MCU executes a run by itself; what stands here carries the program there and brings the news back.
 
 pub mod calibrate;
+pub mod calibrate_servo;
 mod clock;
 mod connect;
 mod deploy;

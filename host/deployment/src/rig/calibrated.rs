@@ -1,7 +1,7 @@
-//! A rig whose shape-memory hinges are known by measurement: what a calibration found counts more than what the rig file says of them.
+//! A rig whose hinges are known by measurement: what a calibration found counts more than what the rig file says of them.
 
 use super::rules::Rules;
-use super::settings::{Drive, SmaSettings};
+use super::settings::{Drive, ServoSettings, SmaSettings};
 use super::{Amps, Celsius, Kelvins, Place, Rig, RigError, Seconds};
 use crate::calibration::{Calibration, CalibrationError, Known};
 use crate::heating;
@@ -14,7 +14,7 @@ const LEAST_SHARE: f64 = 1.0 / 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Measured {
     pub(super) hinge: usize,
-    /// The heater that it was measured with.
+    /// The heater or servo that it was measured with.
     pub(super) channel: u16,
     pub(super) drive: Drive,
     pub(super) heater: Option<HeaterExpectation>,
@@ -55,25 +55,33 @@ impl Rig {
     /// The rig with what a calibration, read from `file`, knows of its hinges. Hinges that it knows nothing of stay as they were.
     ///
     /// # Errors
-    /// [`CalibratedError`]: a hinge that is no shape-memory hinge here, or whose measured values break a rule of the rig file, such as a
+    /// [`CalibratedError`]: a hinge that is of another kind here, or whose measured values break a rule of the rig file, such as a
     /// target that isn't above its austenite finish.
     pub fn calibrated(mut self, file: &str, calibration: &Calibration) -> Result<Self, CalibratedError> {
         for hinge in &calibration.hinges {
             let unread = |error| CalibratedError::Calibration { file: file.to_owned(), error };
-            let known = hinge.known().map_err(unread)?;
             let place = |key: &str| Place {
                 file: file.to_owned(),
                 line: None,
                 key: format!("hinge {}: {key}", hinge.hinge),
             };
-            let Drive::Sma(sma) = self.drive_of(hinge.hinge) else {
-                let (expected, found) = ("a shape-memory hinge of the rig", "a hinge of another kind");
-                let (expected, found) = (expected.to_owned(), found.to_owned());
-                return Err(RigError::Value { place: place("hinge"), expected, found }.into());
-            };
             let channel = hinge.channel;
-            let (sma, heater) = measured(&self, &sma, &known, channel);
-            let drive = Drive::Sma(sma);
+            let (drive, heater) = match (self.drive_of(hinge.hinge), &hinge.servo) {
+                (Drive::Sma(sma), None) => {
+                    let (sma, heater) = measured(&self, &sma, &hinge.known().map_err(unread)?, channel);
+                    (Drive::Sma(sma), heater)
+                }
+                (Drive::Servo(servo), Some(measured)) => {
+                    let curve = measured.curve(hinge.hinge).map_err(unread)?;
+                    (Drive::Servo(ServoSettings { curve, ..servo }), None)
+                }
+                (Drive::Sma(_) | Drive::Servo(_) | Drive::Spring(_), servo) => {
+                    let kind = if servo.is_some() { "servo" } else { "shape-memory" };
+                    let (expected, found) = (format!("a {kind} hinge of the rig"), "a hinge of another kind");
+                    let found = found.to_owned();
+                    return Err(RigError::Value { place: place("hinge"), expected, found }.into());
+                }
+            };
             Rules { place, rig: &self }.drive(&drive)?;
             self.measured.push(Measured { hinge: hinge.hinge, channel, drive, heater });
         }
@@ -87,7 +95,7 @@ impl Rig {
     }
 
     /// What the rig file says of a hinge.
-    fn drive_of(&self, hinge: usize) -> Drive {
+    pub(super) fn drive_of(&self, hinge: usize) -> Drive {
         let own = self.entries.iter().find(|entry| entry.hinge == hinge);
         own.map_or_else(|| self.shared(self.default_kind), |entry| entry.drive)
     }
@@ -204,6 +212,56 @@ mod tests {
         let error = rig("").calibrated("c.toml", &calibration(0, &[("austenite_finish", "97 degC")]));
         let error = error.unwrap_err().to_string();
         assert!(error.starts_with("c.toml: hinge 0: austenite_finish: expected less than target"), "{error}");
+    }
+
+    /// A calibration of the servo of hinge 0 at channel `channel`, with pulses in microseconds.
+    fn servo_calibration(channel: u16, points: &[(u16, u16)]) -> Calibration {
+        let point = |(angle, pulse): &(u16, u16)| {
+            format!(
+                "[[hinge.servo.point]]\nangle = \"{angle} deg\"\npulse = \"{pulse} us\"\nread = \"{angle} deg\"\n"
+            )
+        };
+        let text = format!(
+            "version = 2\nrig = \"bench-1\"\nboard = \"b\"\nunique_id = \"00\"\n[[hinge]]\nhinge = 0\nchannel = {channel}\n\
+             date = \"2026-01-02T03:04:05Z\"\nfirmware = \"f\"\nverdict = \"calibrated\"\n[hinge.servo]\ntolerance = \"1 deg\"\n{}",
+            points.iter().map(point).collect::<String>()
+        );
+        Calibration::read(&text, "bench-1").unwrap()
+    }
+
+    const SERVO: &str = "[[hinge]]\nhinge = 0\nkind = \"servo\"\n";
+
+    #[test]
+    fn a_servos_pulses_are_those_that_were_found_and_one_that_failed_keeps_the_rig_files() {
+        let points = [(0, 640), (90, 1100), (180, 1700)];
+        let rig = |calibration| rig(SERVO).calibrated("c.toml", &calibration).unwrap();
+        let curve = |rig: &Rig| match rig.fit(1).unwrap()[0].drive {
+            Drive::Servo(servo) => servo.curve,
+            other => panic!("{other:?}"),
+        };
+        let found = curve(&rig(servo_calibration(0, &points))).unwrap();
+        let pulses: Vec<_> = found.points().iter().map(|(_, pulse)| (pulse.0 * 1e6).round()).collect();
+        assert_eq!(pulses, [640.0, 1100.0, 1700.0]);
+        assert_eq!(curve(&rig(servo_calibration(0, &[]))), None);
+        let moved = rig(servo_calibration(1, &points)).fit(1).unwrap_err().to_string();
+        assert!(moved.contains("expected hinge 0 at channel 0"), "{moved}");
+    }
+
+    #[test]
+    fn pulses_beyond_the_rigs_are_refused_and_so_is_a_servo_that_is_none_here() {
+        let narrow =
+            SERVO.to_owned() + "servo = { shortest_pulse = \"450 us\", longest_pulse = \"2600 us\" }\n";
+        let beyond = rig(&narrow).calibrated("c.toml", &servo_calibration(0, &[(0, 440), (90, 1100)]));
+        let beyond = beyond.unwrap_err().to_string();
+        assert!(
+            beyond.starts_with("c.toml: hinge 0: pulse at 0 deg: expected 0.00045 s to 0.0026 s"),
+            "{beyond}"
+        );
+        let other = rig("").calibrated("c.toml", &servo_calibration(0, &[])).unwrap_err().to_string();
+        assert_eq!(
+            other,
+            "c.toml: hinge 0: hinge: expected a servo hinge of the rig, found a hinge of another kind"
+        );
     }
 
     #[test]

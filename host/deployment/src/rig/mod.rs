@@ -11,6 +11,7 @@ mod places;
 mod quantity;
 mod rating;
 mod rules;
+mod servo_curve;
 mod settings;
 mod sim;
 mod weight;
@@ -25,8 +26,9 @@ pub use quantity::{
     WattsPerSquareMetreKelvin,
 };
 pub use rating::{MOST_POINTS, Rating};
+pub use servo_curve::{SERVO_ANGLES, ServoCurve};
 pub use settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
-pub use sim::{Sim, SmaPlant};
+pub use sim::{ServoPlant, Sim, SmaPlant, TruePulse};
 pub use weight::{Gravity, Weight};
 
 use crate::calibration::Calibration;
