@@ -3,7 +3,7 @@
 use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
 use crate::recording_file::{self, RecordingFile};
-use crate::{identity, input, interrupt};
+use crate::{drift, identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -12,8 +12,8 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_controller::{
-    Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport,
-    deploy,
+    DeployError, Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport,
+    Session, Sightings, Transport, deploy,
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_protocol::Millis;
@@ -31,6 +31,7 @@ const ANGLE_TOLERANCE_DEG: f64 = 1.0;
 
 /// Arguments of `zygote deploy`.
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Arguments {
     /// The plan
     #[arg(value_name = "PLAN.fold")]
@@ -64,6 +65,9 @@ pub(crate) struct Arguments {
     /// Recording as MCAP, a new file for every run [default: beside plan or schedule, .1.mcap, .2.mcap ...]
     #[arg(long, value_name = "FILE.mcap")]
     record: Option<PathBuf>,
+    /// Run it although its hinges were calibrated at another board, whose heaters and thermistors are others
+    #[arg(long)]
+    calibrated_at_another_board: bool,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -165,14 +169,18 @@ impl Order<'_> {
         let interrupted = interrupt::flag()?;
         let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
         let log_path = beside(arguments.log.as_ref(), of, "events.jsonl");
-        let mut log =
-            EventLog::new(BufWriter::new(LateFile::new(log_path.clone()))).observed_by(&mut recorder);
+        let mut sightings = Sightings::default();
+        let mut log = EventLog::new(BufWriter::new(LateFile::new(log_path.clone())))
+            .observed_by(&mut recorder)
+            .observed_by(&mut sightings);
         let deployment = Deployment {
             schedule,
             rig,
             run: number,
             open,
             clear: arguments.clear,
+            // What the simulator heats can't be harmed.
+            any_board: arguments.calibrated_at_another_board || arguments.target.sim,
             interrupted: &|| interrupted.load(Ordering::Relaxed) || stops(),
         };
         let bar = progress_bar(schedule.steps.len() - open.len());
@@ -180,8 +188,17 @@ impl Order<'_> {
         bar.finish_and_clear();
         let log_error = log.error().map(ToString::to_string);
         drop(log);
-        let recorded = recorder.finish(outcome.as_ref().ok());
-        let report = outcome.or_failed()?;
+        let outcome = outcome.map(|report| {
+            let drift =
+                rig.calibrated_by.as_ref().map(|known| sightings.drift(rig, known, schedule.steps.len()));
+            match drift {
+                Some(Ok(drift)) => (RunReport { drift, ..report }, None),
+                Some(Err(error)) => (report, Some(error)),
+                None => (report, None),
+            }
+        });
+        let recorded = recorder.finish(outcome.as_ref().ok().map(|(report, _)| report));
+        let (report, not_compared) = outcome.map_err(refused)?;
         let report_path = beside(arguments.report.as_ref(), of, "report.json");
         let json = serde_json::to_vec_pretty(&report).or_failed()?;
         write_file(&report_path, &json)?;
@@ -189,6 +206,13 @@ impl Order<'_> {
             say(String::from_utf8_lossy(&json));
         } else {
             say(&report);
+            let again = drift::command(&arguments.rig, &report.drift);
+            if !again.is_empty() {
+                say(format_args!("to calibrate them: {again}"));
+            }
+            if let Some(error) = not_compared {
+                say(format_args!("the hinges aren't held against their calibration: {error}"));
+            }
             say(format_args!(
                 "report: {}\nevents: {}\nrecording: {}",
                 report_path.display(),
@@ -214,6 +238,16 @@ impl Order<'_> {
             scenario: arguments.scenario.as_deref().map(name),
             started: (!arguments.target.sim).then(recording_file::now),
         }
+    }
+}
+
+/// Nothing was energised. The wrong board is the user's to change, the rest isn't.
+fn refused(error: DeployError) -> Failure {
+    match error {
+        DeployError::OtherBoard { .. } => Failure::BadInput(
+            anyhow!(error).context("not on this board (--calibrated-at-another-board runs it all the same)"),
+        ),
+        other => Failure::Failed(other.into()),
     }
 }
 
