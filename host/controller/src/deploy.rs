@@ -1,5 +1,7 @@
 //! Deploys a schedule: upload, check, arm, start, watch, and report whatever happens.
 
+mod steering;
+
 use crate::event_log::{EventLog, Record};
 use crate::inbox::Notice;
 use crate::program::{self, ProgramError};
@@ -7,10 +9,11 @@ use crate::report::{Outcome, RunReport, complete};
 use crate::session::{RequestError, Session, SessionError};
 use crate::{MotionState, Transport};
 use std::collections::BTreeSet;
+pub use steering::{Moment, Wish};
 use zygote_deployment::{Fitting, Rig, RigError, Schedule};
 use zygote_protocol::{
-    CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Millis, Reply, RigId, State,
-    Step, Telemetry, program_crc,
+    CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Milliamps, Millis, Millivolts,
+    Reply, RigId, State, Step, Telemetry, program_crc,
 };
 
 /// An MCU that was lost is waited for so long: a reset takes less.
@@ -83,6 +86,12 @@ pub struct Progress {
     pub total: usize,
     /// Hinges on their way, those that move before those that cool.
     pub motions: Vec<MotionState>,
+    /// MCU time of the look at the rig.
+    pub at: Micros,
+    /// Supply voltage.
+    pub supply: Millivolts,
+    /// Measured sum of currents.
+    pub current: Milliamps,
 }
 
 /// What to deploy, and how.
@@ -99,6 +108,8 @@ pub struct Deployment<'a> {
     pub clear: bool,
     /// Asked often: does the user want to stop?
     pub interrupted: &'a dyn Fn() -> bool,
+    /// Asked often as well: what whoever attends the run wants. Without it, it is armed and started at once.
+    pub steer: Option<&'a dyn Fn(Moment) -> Wish>,
 }
 
 /// Runs a deployment to its end, whatever that is.
@@ -138,13 +149,21 @@ pub fn deploy<T: Transport>(
         return Err(DeployError::Recording { message });
     }
     let report = RunReport::new(run, schedule, &board, &firmware);
-    let mut watch = Watch { schedule, fittings, report, started: None, ended: None, finished: false, log };
-    if let Err(error) = start(session, run, rig_id, limits) {
-        // Perhaps it is armed; the error is what the user must know, not whether this last word got through.
-        session.stop().ok();
-        return Err(error.into());
-    }
-    let outcome = watch.until_the_end(session, deployment.interrupted, show);
+    let (started, ended, finished, attended) = (None, None, false, deployment.steer.is_some());
+    let mut watch = Watch { schedule, fittings, report, started, ended, finished, attended, log };
+    let begun = match deployment.steer {
+        None => start(session, run, rig_id, limits).map(|()| None),
+        Some(steer) => watch.until_started(session, deployment, steer, &(rig_id, limits), show),
+    };
+    let outcome = match begun {
+        Ok(None) => watch.until_the_end(session, deployment, show),
+        Ok(Some(early)) => early,
+        Err(error) => {
+            // Perhaps it is armed; the error is what the user must know, not whether this last word got through.
+            session.stop().ok();
+            return Err(error.into());
+        }
+    };
     let mut report = watch.settle(session, outcome);
     let moved: BTreeSet<_> = schedule.steps.iter().map(|step| step.hinge).collect();
     report.precede(RunReport::new(run, &whole.rest(&moved), &board, &firmware));
@@ -192,6 +211,11 @@ pub(crate) fn start<T: Transport>(
     limits: Limits,
 ) -> Result<(), RequestError> {
     session.request(Command::Arm { rig, limits, lifetime: ARM_LIFETIME })?;
+    start_only(session, run)
+}
+
+/// Starts what is armed.
+fn start_only<T: Transport>(session: &mut Session<T>, run: u32) -> Result<(), RequestError> {
     session.request(Command::Start { run }).map(|_| ())
 }
 
@@ -205,6 +229,8 @@ struct Watch<'a, 'o> {
     ended: Option<Micros>,
     /// The MCU says that every step is done.
     finished: bool,
+    /// A person starts it.
+    attended: bool,
     log: &'a mut EventLog<'o>,
 }
 
@@ -213,27 +239,48 @@ impl Watch<'_, '_> {
     fn until_the_end<T: Transport>(
         &mut self,
         session: &mut Session<T>,
-        interrupted: &dyn Fn() -> bool,
+        deployment: &Deployment<'_>,
         show: &mut dyn FnMut(&Progress),
     ) -> Outcome {
         loop {
-            if interrupted() {
+            if (deployment.interrupted)() {
                 return self.stop(session);
             }
-            let notice = match session.notice(session.now().plus(WATCH)) {
-                Ok(notice) => notice,
-                Err(error) => return self.lost(session.now(), &error),
-            };
-            let now = session.now();
-            self.log.follow(session.clock().fit());
-            match notice {
-                None => {}
-                Some(Notice::Event(event)) => self.take_event(now, &event),
-                Some(Notice::Fault(fault)) => return self.take_fault(now, &fault),
-                Some(Notice::Telemetry(telemetry)) => show(&self.take_telemetry(now, &telemetry)),
+            if let Some(outcome) = deployment.steer.and_then(|steer| self.steered(session, steer)) {
+                return outcome;
+            }
+            if let Some(outcome) = self.listen(session, deployment.patience(), show) {
+                return outcome;
             }
             if self.finished {
                 return complete(self.report.direction);
+            }
+        }
+    }
+
+    /// Takes the next piece of news, waiting for it a while; gives how the run ended, where it did.
+    fn listen<T: Transport>(
+        &mut self,
+        session: &mut Session<T>,
+        patience: Millis,
+        show: &mut dyn FnMut(&Progress),
+    ) -> Option<Outcome> {
+        let notice = match session.notice(session.now().plus(patience)) {
+            Ok(notice) => notice,
+            Err(error) => return Some(self.lost(session.now(), &error)),
+        };
+        let now = session.now();
+        self.log.follow(session.clock().fit());
+        match notice {
+            None => None,
+            Some(Notice::Event(event)) => {
+                self.take_event(now, &event);
+                None
+            }
+            Some(Notice::Fault(fault)) => Some(self.take_fault(now, &fault)),
+            Some(Notice::Telemetry(telemetry)) => {
+                show(&self.take_telemetry(now, &telemetry));
+                None
             }
         }
     }
@@ -272,6 +319,8 @@ impl Watch<'_, '_> {
                 match state {
                     State::Running => self.started = Some(event.at),
                     State::Finished | State::Safe => self.ended = Some(event.at),
+                    // Disarmed in the middle.
+                    State::Loaded if self.started.is_some() => self.ended = Some(event.at),
                     State::Idle | State::Loaded | State::Armed => {}
                 }
                 Record::State { mcu_us, state: format!("{state:?}").to_lowercase() }
@@ -334,6 +383,18 @@ impl Watch<'_, '_> {
             .collect();
         let temperatures =
             motions.iter().filter_map(|motion| Some((motion.hinge, motion.temperature_c?))).collect();
+        let progress = Progress {
+            opened: usize::from(telemetry.opened),
+            total: self.schedule.steps.len(),
+            motions: motions.clone(),
+            at: telemetry.at,
+            supply: telemetry.supply,
+            current: telemetry.current,
+        };
+        if self.attended && self.started.is_none() {
+            // A person may take long to arm and start it; nothing of that is the run's.
+            return progress;
+        }
         self.log.add(
             now,
             &Record::Telemetry {
@@ -342,10 +403,10 @@ impl Watch<'_, '_> {
                 current_ma: telemetry.current.0,
                 opened: telemetry.opened,
                 temperatures,
-                motions: motions.clone(),
+                motions,
             },
         );
-        Progress { opened: usize::from(telemetry.opened), total: self.schedule.steps.len(), motions }
+        progress
     }
 
     /// Asks the MCU for the last word on every step, and closes the report.

@@ -98,6 +98,8 @@ pub enum Record {
         #[serde(skip)]
         motions: Vec<MotionState>,
     },
+    /// The run was paused: its MCU is disarmed, and everything is off.
+    Paused,
     /// The user stopped the run.
     StopRequested,
     /// The MCU has confirmed the stop.
@@ -124,6 +126,7 @@ impl Record {
             | Self::Telemetry { mcu_us, .. } => Some(Micros(*mcu_us)),
             Self::Connected { .. }
             | Self::Uploaded { .. }
+            | Self::Paused
             | Self::StopRequested
             | Self::StopConfirmed { .. }
             | Self::Lost { .. } => None,
@@ -168,7 +171,7 @@ struct Line<'a> {
 /// Where records go. A log that can't be written doesn't stop a run: the first error is kept and told at the end.
 pub struct EventLog<'a> {
     sink: Box<dyn Write>,
-    observer: Option<&'a mut dyn Observer>,
+    observers: Vec<&'a mut dyn Observer>,
     begun: bool,
     start: Option<Micros>,
     clock: Option<ClockFit>,
@@ -178,13 +181,14 @@ pub struct EventLog<'a> {
 impl<'a> EventLog<'a> {
     /// A log into `sink`, flushed after every line.
     pub fn new(sink: impl Write + 'static) -> Self {
-        Self { sink: Box::new(sink), observer: None, begun: false, start: None, clock: None, error: None }
+        Self { sink: Box::new(sink), observers: Vec::new(), begun: false, start: None, clock: None, error: None }
     }
 
-    /// With somebody who is told the same.
+    /// With one more who is told the same.
     #[must_use]
-    pub fn observed_by(self, observer: &'a mut dyn Observer) -> Self {
-        Self { observer: Some(observer), ..self }
+    pub fn observed_by(mut self, observer: &'a mut dyn Observer) -> Self {
+        self.observers.push(observer);
+        self
     }
 
     /// From now on, tells host times by this clock.
@@ -202,10 +206,8 @@ impl<'a> EventLog<'a> {
             self.begun |= self.error.is_none();
         }
         // A run whose log can't be begun isn't started; it leaves no other trace either.
-        if self.begun
-            && let Some(observer) = &mut self.observer
-        {
-            observer.observe(times, record);
+        if self.begun {
+            self.observers.iter_mut().for_each(|observer| observer.observe(times, record));
         }
     }
 
@@ -220,8 +222,8 @@ impl<'a> EventLog<'a> {
         self.error.as_ref()
     }
 
-    /// The observer's first error.
+    /// An observer's first error.
     pub fn observer_error(&self) -> Option<String> {
-        self.observer.as_ref().and_then(|observer| observer.error())
+        self.observers.iter().find_map(|observer| observer.error())
     }
 }

@@ -26,7 +26,7 @@ mod transport;
 
 pub use clock::{Clock, ClockFit, Exchange};
 pub use connect::ConnectError;
-pub use deploy::{DeployError, Deployment, Progress, deploy};
+pub use deploy::{DeployError, Deployment, Moment, Progress, Wish, deploy};
 pub use estimate::MotionState;
 pub use event_log::{EventLog, Observer, Record, Times};
 pub use inbox::Notice;

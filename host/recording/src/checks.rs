@@ -113,6 +113,7 @@ impl Rehearsal {
             open: &open,
             clear: false,
             interrupted: &|| false,
+            steer: None,
         };
         let ended = deploy(&mut session, &deployment, &mut log, &mut |_| {});
         drop(log);

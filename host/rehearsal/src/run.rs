@@ -113,6 +113,7 @@ impl Trial {
                     open: &BTreeSet::new(),
                     clear: false,
                     interrupted: &|| stop.get(),
+                    steer: None,
                 };
                 match deploy(&mut session, &deployment, &mut EventLog::new(io::sink()), &mut |_| {}) {
                     Ok(report) => Ending::Report(Box::new(report)),
