@@ -35,6 +35,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "zygote-recording",
         &["zygote-stacking", "zygote-deployment", "zygote-controller", "zygote-protocol", "zygote-rehearsal"],
     ),
+    ("zygote-live", &["zygote-controller", "zygote-deployment", "zygote-protocol"]),
     (
         "zygote-cli",
         &[
@@ -42,6 +43,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
+            "zygote-live",
             "zygote-protocol",
             "zygote-recording",
             "zygote-rehearsal",
