@@ -22,6 +22,7 @@ mod interrupt;
 #[cfg(test)]
 mod line_tests;
 mod link;
+mod live;
 mod net;
 mod noisy_line;
 mod output;
@@ -37,6 +38,7 @@ mod replay;
 mod report;
 mod schedule;
 mod sequence;
+mod serve;
 mod settings;
 mod sim;
 mod table;

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::{
     alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net,
-    picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table,
+    picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, serve, settings, sim, table,
     tolerance, torque, view,
 };
 use clap::Subcommand;
@@ -43,6 +43,8 @@ pub(crate) enum Verb {
     Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
+    /// Serve a page from which runs are chosen, armed, started, paused and stopped
+    Serve(serve::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
     /// Tell a recorded run again: what happened when, and how it ended
@@ -84,6 +86,7 @@ impl Verb {
             Self::Settings(arguments) => settings::run(&arguments),
             Self::Hil(arguments) => hil::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Serve(arguments) => serve::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Replay(arguments) => replay::run(&arguments),
             Self::Report(arguments) => report::run(&arguments),
