@@ -290,6 +290,9 @@ impl Watch<'_, '_> {
         match session.stop() {
             Ok(after) => {
                 self.log.add(session.now(), &Record::StopConfirmed { after_us: after.0 });
+                if self.attended {
+                    self.hear_the_rest(session);
+                }
                 Outcome::Stopped
             }
             Err(error) => self.lost(session.now(), &error),

@@ -124,6 +124,8 @@ pub struct Expected {
     pub start_s: f64,
     /// When it is at its angle, s.
     pub opened_s: f64,
+    /// Hinges that have to be at theirs before.
+    pub after: Vec<usize>,
 }
 
 /// What a schedule expects of its hinges.
@@ -133,6 +135,7 @@ pub fn expected(schedule: &Schedule) -> Vec<Expected> {
         kind: step.motion.kind().name(),
         start_s: seconds(step.start),
         opened_s: seconds(step.opened()),
+        after: step.after.iter().filter_map(|before| Some(schedule.steps.get(*before)?.hinge)).collect(),
     });
     steps.collect()
 }

@@ -59,11 +59,11 @@ export class Stage {
     this.controls.addEventListener("change", changed);
   }
 
-  /** `inset` is how much of the right and of the bottom is covered, in pixels: the middle is that of the rest. */
-  resize(width: number, height: number, pixelRatio: number, inset = { right: 0, bottom: 0 }): void {
+  /** `inset` is how much of each side is covered, in pixels: the middle is that of the rest. */
+  resize(width: number, height: number, pixelRatio: number, inset = { left: 0, right: 0, bottom: 0 }): void {
     Object.assign(this.size, { width, height });
-    this.free = Math.min(1 - inset.bottom / height, (width - inset.right) / height);
-    this.camera.setViewOffset(width, height, inset.right / 2, inset.bottom / 2, width, height);
+    this.free = Math.min(1 - inset.bottom / height, (width - inset.left - inset.right) / height);
+    this.camera.setViewOffset(width, height, (inset.right - inset.left) / 2, inset.bottom / 2, width, height);
     this.renderer.setPixelRatio(Math.min(pixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;

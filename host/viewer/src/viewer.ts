@@ -6,6 +6,8 @@ import { Labels } from "./labels";
 import { missing, type Mode, MODES, type Paint, paint } from "./paint";
 import { PanelCard } from "./panelCard";
 import { Places, type Scene } from "./scene";
+import { RunPage } from "./runPage";
+import { LiveRun, RecordedRun } from "./runSource";
 import type { Source } from "./source";
 import { Stage } from "./stage";
 import { ThemeChoice } from "./theme";
@@ -23,6 +25,7 @@ export class Viewer {
   private readonly card: PanelCard;
   private readonly tools: Toolbar;
   private readonly themes: ThemeChoice;
+  private readonly run: RunPage | undefined;
   private mode: Mode = "pile";
   private colours: Paint;
   private explode = 0;
@@ -43,7 +46,11 @@ export class Viewer {
     this.stage = new Stage(canvas, scene, this.places, () => this.ask());
     this.labels = new Labels(labels, scene);
     this.colours = paint(this.mode, scene, this.places);
-    this.bar = new TimeBar(source, () => this.playOrPause(), () => this.ask());
+    if (source instanceof LiveRun || source instanceof RecordedRun) {
+      this.run = new RunPage(source, scene, () => this.ask(), (time) => this.seek(time));
+      document.documentElement.dataset["run"] = scene.run?.from;
+    }
+    this.bar = new TimeBar(source, () => this.playOrPause(), () => this.ask(), this.run?.gantt.root);
     this.card = new PanelCard(scene, this.places, (panel) => this.pick(panel));
     this.tools = new Toolbar(scene, this.places.panels, {
       colour: (mode) => this.colour(mode),
@@ -52,24 +59,26 @@ export class Viewer {
       pick: (panel) => this.pick(panel),
       frame: () => this.frame(),
       theme: () => this.themes.toggle(),
+      help: () => this.help(),
     });
     this.themes = new ThemeChoice((theme) => {
       this.stage.theme(theme);
       this.ask();
     });
     const side = element("div", { id: "side" }, this.tools.root, this.card.root);
-    app.append(heading(scene), side, this.bar.root, this.tools.help);
+    app.append(heading(scene), ...(this.run?.parts ?? []), side, this.bar.root, this.tools.help);
   }
 
   start(): void {
     this.themes.apply();
-    this.colour("pile");
+    this.colour(this.run ? "temperature" : "pile");
     this.pick(undefined);
     this.listen();
     this.resize();
     this.draw(0);
     this.stage.reset();
     this.ask();
+    this.run?.start();
   }
 
   /** Draws soon. */
@@ -87,12 +96,12 @@ export class Viewer {
   private draw(passed: number): void {
     const start = performance.now();
     this.source.advance(passed);
-    const { state, timeline, playing } = this.source;
-    const share = timeline.end > 0 ? state.time / timeline.end : 1;
+    const { state, playing } = this.source;
     // Apart and together in a quarter of a second.
     const way = this.explodeTo - this.explode;
     this.explode += Math.abs(way) < 0.004 ? way : way * Math.min(1, passed * 12 + 0.05);
-    this.stage.place(state, share, this.explode);
+    if (this.mode === "temperature") this.stage.paint(paint(this.mode, this.scene, this.places, state.celsius));
+    this.stage.place(state, state.share, this.explode);
     this.stage.render();
     const { motion, bars, camera, size } = this.stage;
     const all = this.scene.hinges.map((_, hinge) => hinge);
@@ -102,6 +111,7 @@ export class Viewer {
     this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
     this.bar.update();
     this.card.update(state.fractions);
+    this.run?.update(state.fractions);
     this.work.push(performance.now() - start);
     if (this.work.length > 240) this.work.shift();
     if (playing || this.explode !== this.explodeTo) this.ask();
@@ -121,7 +131,7 @@ export class Viewer {
   private colour(mode: Mode): void {
     if (missing(mode, this.scene) !== undefined) return;
     this.mode = mode;
-    this.colours = paint(mode, this.scene, this.places);
+    this.colours = paint(mode, this.scene, this.places, this.source.state.celsius);
     this.stage.paint(this.colours);
     this.told();
   }
@@ -157,6 +167,12 @@ export class Viewer {
     return a === panel ? b : a;
   }
 
+  private help(): void {
+    // Where there is something to stop, the button stays in reach.
+    if (this.scene.run?.from === "live") this.tools.help.show();
+    else this.tools.help.showModal();
+  }
+
   private frame(): void {
     this.stage.reset();
     this.ask();
@@ -165,7 +181,8 @@ export class Viewer {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     // What the tools leave free; they may cover a little of a wide page, but not the middle of a narrow one.
-    const inset = { right: Math.min(200, Math.max(0, width - height)), bottom: Math.min(100, height / 5) };
+    const sides = Math.min(200, Math.max(0, width - height));
+    const inset = { left: this.run ? sides : 0, right: sides, bottom: this.run ? height / 4 : Math.min(100, height / 5) };
     this.stage.resize(width, height, devicePixelRatio, inset);
     this.ask();
   }
@@ -210,7 +227,7 @@ export class Viewer {
       },
       frame: () => this.frame(),
       theme: () => this.themes.toggle(),
-      help: () => this.tools.help.showModal(),
+      help: () => this.help(),
       nothing: () => this.pick(undefined),
     });
   }
@@ -234,7 +251,7 @@ function heading(scene: Scene): HTMLElement {
     "header", { id: "what" },
     element("h1", {}, name),
     element("p", {}, `${panels} panels in ${piles} of ${high} · ${scene.expansion_ratio.toFixed(1)} times the volume`),
-    element("p", { class: collisions.length > 0 ? "note bad" : "note" }, told),
-    ...(scene.scheduled ? [] : [element("p", { class: "note" }, "No schedule: hinges open in the order of the tree")]),
+    ...(scene.run && collisions.length === 0 ? [] : [element("p", { class: collisions.length > 0 ? "note bad" : "note" }, told)]),
+    ...(scene.scheduled || scene.run ? [] : [element("p", { class: "note" }, "No schedule: hinges open in the order of the tree")]),
   );
 }

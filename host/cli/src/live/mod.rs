@@ -8,6 +8,8 @@
 
 mod attended;
 mod real_time;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use attended::{Attended, Bench};
 pub(crate) use real_time::RealTime;

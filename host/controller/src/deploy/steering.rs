@@ -13,6 +13,7 @@
 
 use super::{Deployment, Progress, WATCH, Watch, start_only};
 use crate::event_log::Record;
+use crate::inbox::Notice;
 use crate::report::{HingeOutcome, Outcome};
 use crate::session::{RequestError, Session};
 use crate::Transport;
@@ -105,6 +106,16 @@ impl Watch<'_, '_> {
             Wish::Stop => Some(self.stop(session)),
             Wish::Pause if !self.a_servo_is_under_way() => self.pause(session),
             Wish::Wait | Wish::GoOn | Wish::Pause => None,
+        }
+    }
+
+    /// What came along with a stop's confirmation: that the MCU is in its safe state. Somebody waits for it.
+    pub(super) fn hear_the_rest<T: Transport>(&mut self, session: &mut Session<T>) {
+        // A session that breaks now is asked for its states once more, and tells it then.
+        while let Ok(Some(notice)) = session.notice(session.now()) {
+            if let Notice::Event(event) = notice {
+                self.take_event(session.now(), &event);
+            }
         }
     }
 
