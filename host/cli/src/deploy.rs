@@ -17,8 +17,8 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_controller::{
-    Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport, Wish,
-    deploy,
+    Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport,
+    Wish, deploy,
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_live::{Choice, Hub};
@@ -278,18 +278,19 @@ impl Job {
     ) -> Result<RunReport, Failure> {
         let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
         let order = Order { job: self, open: &self.open, first: true };
-        order.perform(&mut session, number, &Attendance { interrupted, hub: None })
+        let (report, kept) = order.perform(&mut session, number, &Attendance { interrupted, hub: None })?;
+        kept.map(|()| report)
     }
 }
 
 impl Order<'_> {
-    /// Runs in a session and writes log, recording and report.
+    /// Runs in a session and writes log, recording and report; gives the report, and whether all of them are whole.
     pub(crate) fn perform<T: Transport>(
         &self,
         session: &mut Session<T>,
         number: u32,
         attendance: &Attendance<'_>,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<(RunReport, Result<(), Failure>), Failure> {
         let &Self { job, open, first } = self;
         let (schedule, of) = (&job.schedule, job.file());
         let asked = job.record.as_ref().filter(|_| first);
@@ -324,23 +325,27 @@ impl Order<'_> {
         drop(log);
         let recorded = recorder.finish(outcome.as_ref().ok());
         let report = outcome.or_failed()?;
-        let report_path = beside(job.report.as_ref(), of, "report.json");
-        let json = serde_json::to_vec_pretty(&report).or_failed()?;
-        write_file(&report_path, &json)?;
+        let kept = self.keep(&report, &log_path, &recording_path).and_then(|()| {
+            whole(&log_path, "log", log_error)?;
+            whole(&recording_path, "recording", recorded.err().map(|error| error.to_string()))
+        });
+        Ok((report, kept))
+    }
+
+    /// Writes the report, and tells it.
+    fn keep(&self, report: &RunReport, log: &Path, recording: &Path) -> Result<(), Failure> {
+        let job = self.job;
+        let path = beside(job.report.as_ref(), job.file(), "report.json");
+        let json = serde_json::to_vec_pretty(report).or_failed()?;
+        write_file(&path, &json)?;
         if job.json {
             say(String::from_utf8_lossy(&json));
         } else {
-            say(&report);
-            say(format_args!(
-                "report: {}\nevents: {}\nrecording: {}",
-                report_path.display(),
-                log_path.display(),
-                recording_path.display()
-            ));
+            say(report);
+            let (path, log, recording) = (path.display(), log.display(), recording.display());
+            say(format_args!("report: {path}\nevents: {log}\nrecording: {recording}"));
         }
-        whole(&log_path, "log", log_error)?;
-        whole(&recording_path, "recording", recorded.err().map(|error| error.to_string()))?;
-        Ok(report)
+        Ok(())
     }
 
     /// What the recording tells of it. On the simulator nothing of it depends on the wall clock.

@@ -98,7 +98,11 @@ fn show(arguments: &Arguments, recording: &Recording) -> Result<(), Failure> {
     let of = (schedule.plan_crc64, Fingerprint::of(plan));
     if of.0 != of.1 {
         let name = arguments.recording.display();
-        return Err(Failure::BadInput(anyhow!("{name}: its schedule is for plan {}, its plan is {}", of.0, of.1)));
+        return Err(Failure::BadInput(anyhow!(
+            "{name}: its schedule is for plan {}, its plan is {}",
+            of.0,
+            of.1
+        )));
     }
     let file = PathBuf::from(named("plan"));
     let scene = SceneOf { path: &file, plan, schedule: Some(schedule), rig: Some(rig) };

@@ -56,9 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     match line {
         Some(line) => attended.until_the_end(&mut Port { line: Some(line) }).map(drop),
-        None => {
-            attended.until_the_end(&mut Simulator { jobs: &jobs, pace: arguments.screen.pace }).map(drop)
-        }
+        None => attended.until_the_end(&mut Simulator { jobs: &jobs, pace: arguments.screen.pace }).map(drop),
     }
 }
 
@@ -77,8 +75,10 @@ fn jobs(arguments: &Arguments) -> Result<Vec<Job>, Failure> {
     }
     for path in schedules {
         let name = path.display();
-        let text = fs::read_to_string(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
-        let schedule = Schedule::from_text(&text).with_context(|| format!("{name}: no schedule")).or_bad_input()?;
+        let text =
+            fs::read_to_string(path).with_context(|| format!("{name}: cannot be read")).or_bad_input()?;
+        let schedule =
+            Schedule::from_text(&text).with_context(|| format!("{name}: no schedule")).or_bad_input()?;
         let of = schedule.plan_crc64;
         let plan = known.iter().find(|(_, plan)| *plan == of).with_context(|| {
             format!("{name}: is for plan {of}, which none of the plans named is; name its plan too")
@@ -86,7 +86,8 @@ fn jobs(arguments: &Arguments) -> Result<Vec<Job>, Failure> {
         jobs.push(job(plan.or_bad_input()?.0, Some(path))?);
     }
     if jobs.is_empty() {
-        let error = anyhow!("there is nothing to run: none of the plans has a schedule; `zygote schedule` makes one");
+        let error =
+            anyhow!("there is nothing to run: none of the plans has a schedule; `zygote schedule` makes one");
         return Err(Failure::BadInput(error));
     }
     Ok(jobs)

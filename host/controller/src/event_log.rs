@@ -181,7 +181,14 @@ pub struct EventLog<'a> {
 impl<'a> EventLog<'a> {
     /// A log into `sink`, flushed after every line.
     pub fn new(sink: impl Write + 'static) -> Self {
-        Self { sink: Box::new(sink), observers: Vec::new(), begun: false, start: None, clock: None, error: None }
+        Self {
+            sink: Box::new(sink),
+            observers: Vec::new(),
+            begun: false,
+            start: None,
+            clock: None,
+            error: None,
+        }
     }
 
     /// With one more who is told the same.

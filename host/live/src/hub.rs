@@ -308,7 +308,11 @@ mod tests {
         }
         let told = all(&hub, late, &mut seen_late);
         assert_eq!(told.iter().filter(|text| text.contains("opened\",\"mcu")).count(), 1_000);
-        assert_eq!(told.iter().filter(|text| text.contains("\"look\"")).count(), 101, "one a second, and the newest");
+        assert_eq!(
+            told.iter().filter(|text| text.contains("\"look\"")).count(),
+            101,
+            "one a second, and the newest"
+        );
         assert!(told.last().is_some_and(|text| text.contains("\"mcu_us\":99900000")), "{:?}", told.last());
     }
 

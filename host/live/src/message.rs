@@ -258,7 +258,13 @@ mod tests {
             read(r#"{"type":"order","order":"resume"}"#),
             Some(Said::Order(Order::Resume { back: false }))
         );
-        for wrong in ["", "[]", r#"{"type":"order"}"#, r#"{"type":"order","order":"fly"}"#, r#"{"type":"stop","id":-1}"#] {
+        for wrong in [
+            "",
+            "[]",
+            r#"{"type":"order"}"#,
+            r#"{"type":"order","order":"fly"}"#,
+            r#"{"type":"stop","id":-1}"#,
+        ] {
             assert_eq!(read(wrong), None, "{wrong}");
         }
     }

@@ -73,7 +73,10 @@ pub(crate) fn read(stream: &mut impl Read, port: u16) -> io::Result<Result<Reque
     };
     if path == LIVE {
         // What follows before the line is granted is no browser's.
-        return Ok(key.filter(|_| method == "GET" && bytes.len() == head).map(Request::Live).ok_or(Refusal::Malformed));
+        return Ok(key
+            .filter(|_| method == "GET" && bytes.len() == head)
+            .map(Request::Live)
+            .ok_or(Refusal::Malformed));
     }
     Ok(match method.as_str() {
         "GET" => Ok(Request::Get(path)),
@@ -265,7 +268,9 @@ mod tests {
     #[test]
     fn what_asks_for_no_line_gets_none() {
         let ours = format!("{LINE}Origin: http://127.0.0.1:4000\r\n\r\n");
-        for (from, to) in [("Version: 13", "Version: 8"), ("Upgrade: websocket", "Upgrade: h2c"), ("GET", "POST")] {
+        for (from, to) in
+            [("Version: 13", "Version: 8"), ("Upgrade: websocket", "Upgrade: h2c"), ("GET", "POST")]
+        {
             assert_eq!(request(&ours.replace(from, to)), Err(Refusal::Malformed), "{to}");
         }
         assert_eq!(request(&format!("{ours}early")), Err(Refusal::Malformed));

@@ -52,7 +52,8 @@ pub(crate) fn serve(stream: TcpStream, hub: &Hub, token: &Token) -> Result<(), E
         .max_frame_size(Some(MOST_HEARD));
     let socket = WebSocket::from_raw_socket(stream, Role::Server, Some(limits));
     let now = Instant::now();
-    let mut line = Line { socket, hub, page: None, seen: Seen::default(), heard: now, asked: now, stuck: None };
+    let mut line =
+        Line { socket, hub, page: None, seen: Seen::default(), heard: now, asked: now, stuck: None };
     let ended = line.run(token);
     if let Some(page) = line.page {
         hub.go(page);
@@ -82,7 +83,8 @@ impl Line<'_> {
                 Err(error) => return Err(error),
             }
             let patience = if self.page.is_some() { DEAD_AFTER } else { HELLO_WITHIN };
-            if self.heard.elapsed() > patience || self.stuck.is_some_and(|since| since.elapsed() > DEAD_AFTER) {
+            if self.heard.elapsed() > patience || self.stuck.is_some_and(|since| since.elapsed() > DEAD_AFTER)
+            {
                 return Ok(());
             }
             if self.asked.elapsed() > PING_EVERY && self.stuck.is_none() {
@@ -101,11 +103,16 @@ impl Line<'_> {
         match (self.page, said) {
             (None, Said::Hello { version, token: told, control }) => {
                 let refusal = if !token.is(&told) {
-                    Some("the address has no valid secret: open the one that zygote printed when it started".to_owned())
+                    Some(
+                        "the address has no valid secret: open the one that zygote printed when it started"
+                            .to_owned(),
+                    )
                 } else if version == VERSION {
                     None
                 } else {
-                    Some(format!("messages: expected version {VERSION}, found {version}; load the page again"))
+                    Some(format!(
+                        "messages: expected version {VERSION}, found {version}; load the page again"
+                    ))
                 };
                 if let Some(why) = refusal {
                     self.refuse(None, &why)?;

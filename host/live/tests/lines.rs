@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Error, HandshakeError, Message, WebSocket, client};
 use zygote_controller::{Moment, Record, Wish};
-use zygote_live::{Hub, Server, Told, Token, bind};
+use zygote_live::{Hub, Server, Token, Told, bind};
 
 struct Place {
     hub: Arc<Hub>,

@@ -33,7 +33,8 @@ pub(super) fn run(arguments: &Arguments, job: Job, interrupted: &dyn Fn() -> boo
     let [job] = &jobs;
     // Whether the line can be had is known before a page is shown.
     let port = arguments.target.port.as_deref();
-    let line = port.map(|device| SerialTransport::open(device, job.rig.link.baud)).transpose().or_bad_input()?;
+    let line =
+        port.map(|device| SerialTransport::open(device, job.rig.link.baud)).transpose().or_bad_input()?;
     let server = screen.open(&name, &hub)?;
     let mut attended = Attended {
         hub: &hub,

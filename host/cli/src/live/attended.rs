@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 use std::thread;
 use std::time::Duration;
 use zygote_controller::{
-    DeployError, EarlierRun, HingeOutcome, Notice, Outcome, Progress, Record, RequestError, RunReport, Session, Transport,
+    DeployError, EarlierRun, HingeOutcome, Notice, Outcome, Progress, Record, RequestError, RunReport,
+    Session, Transport,
 };
 use zygote_deployment::Kind;
 use zygote_live::{Begin, Choice, Hub, Order, Server, Stage, Told, expected};
@@ -26,7 +27,11 @@ pub(crate) trait Bench {
     type Line: Transport;
 
     /// The session for a run that begins anew, in place of the one so far: a board is the same, a simulator has another plant.
-    fn session(&mut self, run: usize, so_far: Option<Session<Self::Line>>) -> Result<Session<Self::Line>, Failure>;
+    fn session(
+        &mut self,
+        run: usize,
+        so_far: Option<Session<Self::Line>>,
+    ) -> Result<Session<Self::Line>, Failure>;
 }
 
 /// Runs on offer, and how far the last of them came.
@@ -86,7 +91,9 @@ impl Attended<'_> {
             let outcome = self.run(bench, &mut session, load);
             match outcome {
                 // It can't be run at all: that is told where the program was started.
-                Err(failure) if self.only && self.last.is_none() && !is_safe(&failure) => return Err(failure),
+                Err(failure) if self.only && self.last.is_none() && !is_safe(&failure) => {
+                    return Err(failure);
+                }
                 Err(failure) => self.trouble(&failure),
                 Ok(()) => {}
             }
@@ -110,9 +117,13 @@ impl Attended<'_> {
         self.hub.enter(stage);
     }
 
-    fn trouble(&self, failure: &Failure) {
+    fn tell(&self, failure: &Failure) {
         let (Failure::BadInput(error) | Failure::Failed(error)) = failure;
         self.hub.tell(&Told::Trouble { told: &format!("{error:#}") });
+    }
+
+    fn trouble(&self, failure: &Failure) {
+        self.tell(failure);
         // What the MCU is in then, somebody has to look at.
         self.rest(self.stage("safe", "The run wasn't started.", &["clear"]));
     }
@@ -149,7 +160,11 @@ impl Attended<'_> {
         let order = deploy::Order { job, open: &load.open, first: self.last.is_none() };
         let ended = order.perform(&mut ours, identity::fresh(), &attendance);
         *session = Some(ours);
-        let report = ended?;
+        let (report, kept) = ended?;
+        if let Err(failure) = kept {
+            // The run is over all the same.
+            self.tell(&failure);
+        }
         self.hub.report(&report);
         let stage = self.after(&report);
         self.last = Some((load.run, report));
@@ -249,7 +264,14 @@ impl Attended<'_> {
         match order {
             Order::End => return Some(Next::End),
             Order::Choose { run } => match self.jobs.get(run) {
-                Some(job) => return Some(Next::Load(Load { run, open: job.open.clone(), at_once: false, rest: false })),
+                Some(job) => {
+                    return Some(Next::Load(Load {
+                        run,
+                        open: job.open.clone(),
+                        at_once: false,
+                        rest: false,
+                    }));
+                }
                 None => self.hub.tell(&Told::Trouble { told: &format!("there is no run {run}") }),
             },
             Order::Resume { back } => return self.resume(back),
@@ -298,7 +320,11 @@ impl Attended<'_> {
             Some(Err(error)) => self.hub.tell(&Told::Unconfirmed { why: &error.to_string() }),
             Some(Ok(after)) => {
                 self.hub.tell(&Told::Event(&Record::StopConfirmed { after_us: after.0 }));
-                self.rest(self.stage("safe", "Stopped: everything is off. Look at the rig, then clear.", &["clear"]));
+                self.rest(self.stage(
+                    "safe",
+                    "Stopped: everything is off. Look at the rig, then clear.",
+                    &["clear"],
+                ));
             }
         }
     }

@@ -45,8 +45,7 @@ impl Screen {
     pub(crate) fn open(&self, what: &dyn Display, hub: &Arc<Hub>) -> Result<Server, Failure> {
         let listener = view::listen(self.view_port, "--view-port")?;
         let token = Token::fresh().or_failed()?;
-        let server =
-            Server::start_live(listener, view::page()?, Arc::clone(hub), token).or_failed()?;
+        let server = Server::start_live(listener, view::page()?, Arc::clone(hub), token).or_failed()?;
         view::Showing { what, server: &server, no_open: self.no_open }.tell()?;
         Ok(server)
     }

@@ -32,7 +32,11 @@ impl<T: Transport> RealTime<T> {
     }
 
     /// Simulated time that corresponds to a time.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a run is far shorter than 2^63 us")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a run is far shorter than 2^63 us"
+    )]
     fn simulated(&self, time: Duration) -> u64 {
         (time.as_secs_f64() * 1e6 * self.pace) as u64
     }

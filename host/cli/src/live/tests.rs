@@ -84,7 +84,8 @@ fn after(asks: u32, then: impl Fn(u32) -> Wish) -> impl Fn(Moment) -> Wish {
 fn s2_nothing_is_armed_and_nothing_moves_before_somebody_says_so() {
     let (rig, schedule) = job();
     let mut session = session(&rig, &schedule);
-    let (report, states) = run(&mut session, (&rig, &schedule), &BTreeSet::new(), &after(200, |_| Wish::GoOn));
+    let (report, states) =
+        run(&mut session, (&rig, &schedule), &BTreeSet::new(), &after(200, |_| Wish::GoOn));
     assert!(report.is_complete(), "{report}");
     let at = |name: &str| states.0.iter().find(|(_, state)| state == name).unwrap().0;
     // Two hundred times ten milliseconds, less those in which there were news.
@@ -129,7 +130,12 @@ fn s2_an_arming_that_nobody_starts_is_taken_back_and_is_no_fault() {
     let (report, states) = run(&mut session, (&rig, &schedule), &BTreeSet::new(), &nobody);
     assert_eq!(report.outcome, Outcome::Paused, "{report}");
     assert_eq!(report.count(HingeOutcome::NotMoved), schedule.steps.len());
-    assert_eq!(states.0.iter().map(|(_, state)| state.as_str()).next_back(), Some("loaded"), "{:?}", states.0);
+    assert_eq!(
+        states.0.iter().map(|(_, state)| state.as_str()).next_back(),
+        Some("loaded"),
+        "{:?}",
+        states.0
+    );
     assert!(session.now().0 > 50_000_000, "it was waited for somebody");
     assert!(!session.transport().board().core().outputs().main_switch);
 }

@@ -110,7 +110,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut plan = input::plan(&arguments.plan)?;
     let rig = arguments.rig.as_deref().map(input::rig).transpose()?;
     let schedule = schedule(arguments, &mut plan)?;
-    let scene = SceneOf { path: &arguments.plan, plan: &plan, schedule: schedule.as_ref(), rig: rig.as_ref() };
+    let scene =
+        SceneOf { path: &arguments.plan, plan: &plan, schedule: schedule.as_ref(), rig: rig.as_ref() };
     let json = scene.json(None)?;
     let listener = listen(arguments.port, "--port")?;
     if let Some(png) = &arguments.png {

@@ -98,7 +98,9 @@ impl SceneOf<'_> {
         plan.schedule = schedule.map(Schedule::to_json).transpose().or_failed()?;
         let scene = SceneOf { plan: &plan, schedule, ..*self };
         match scene.json(Some(run)) {
-            Err(Failure::BadInput(_)) if scene.rig.is_some() => SceneOf { rig: None, ..scene }.json(Some(run)),
+            Err(Failure::BadInput(_)) if scene.rig.is_some() => {
+                SceneOf { rig: None, ..scene }.json(Some(run))
+            }
             shown => shown,
         }
     }

@@ -12,11 +12,11 @@
 //! anew by the run that goes on from there. A servo that was on its way may stand anywhere, so a pause waits until none is.
 
 use super::{Deployment, Progress, WATCH, Watch, start_only};
+use crate::Transport;
 use crate::event_log::Record;
 use crate::inbox::Notice;
 use crate::report::{HingeOutcome, Outcome};
 use crate::session::{RequestError, Session};
-use crate::Transport;
 use zygote_deployment::Kind;
 use zygote_protocol::{Command, Limits, Millis, RigId};
 
