@@ -209,6 +209,7 @@ pub(crate) struct Attendance<'a> {
 
 /// Runs; succeeds only when every hinge is at its angle.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    arguments.shown.check()?;
     let job = Job::of(arguments)?;
     let interrupted = interrupt::flag()?;
     let stops = || interrupted.load(Ordering::Relaxed);

@@ -199,7 +199,7 @@ test("a recorded run is gone through, with its temperatures and its fault", asyn
   const whole = await serve(folder, "replay", "whole.mcap", "--view");
   open.push(whole);
   const page = await look(whole.address);
-  const slider = page.getByRole("slider");
+  const slider = page.getByRole("slider", { name: "From the stack to the shape" });
   expect(await opened(page)).toBe(0);
   await slider.fill("5000");
   await page.locator("#run .moving", { hasText: "°C" }).waitFor();

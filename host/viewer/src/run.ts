@@ -47,6 +47,10 @@ export class Run {
   /** Hinges of this part of the run, in its order. */
   readonly steps: readonly number[];
   private startedUs: number | undefined;
+  /** When it was over, s. */
+  private ended: number | undefined;
+  /** The newest look of before the start, or of after the end: it is no part of the run. */
+  private still: Look | undefined;
   private newest = 0;
 
   constructor(readonly begin: Begin, private readonly scene: Scene) {
@@ -85,9 +89,10 @@ export class Run {
     if (event.kind === "state") {
       this.state = event.state ?? "";
       if (event.state === "running") this.startedUs = event.mcu_us;
+      else this.ended ??= this.seconds(event.mcu_us);
     }
     const time = this.seconds(event.mcu_us);
-    if (time !== undefined) this.newest = Math.max(this.newest, time);
+    if (time !== undefined && time <= (this.ended ?? Infinity)) this.newest = Math.max(this.newest, time);
     const course = event.hinge === undefined ? undefined : this.courses[event.hinge];
     if (course && time !== undefined) {
       if (event.kind === "started") course.started = time;
@@ -103,13 +108,12 @@ export class Run {
 
   private look(look: Look): void {
     const time = this.seconds(look.mcu_us);
-    // Looks of before the start tell of nothing that moves; the newest one comes again after the one that was kept.
-    const last = this.lookTimes.at(-1);
-    if (time === undefined || time < 0 || (last !== undefined && time <= last)) {
-      if (this.lookTimes.length === 0) this.looks[0] = look;
+    if (time === undefined || time < 0 || time > (this.ended ?? Infinity)) {
+      this.still = look;
       return;
     }
-    if (this.lookTimes.length === 0) this.looks.length = 0;
+    // The newest one may come again after the one that was kept.
+    if (time <= (this.lookTimes.at(-1) ?? -1)) return;
     this.looks.push(look);
     this.lookTimes.push(time);
     this.newest = Math.max(this.newest, time);
@@ -122,7 +126,8 @@ export class Run {
   }
 
   lookAt(time: number): Look | undefined {
-    if (this.lookTimes.length === 0) return this.looks[0];
+    const over = this.lookTimes.length === 0 || (this.ended !== undefined && time >= this.ended);
+    if (over && this.still !== undefined) return this.still;
     return this.looks[Math.max(lastUpTo(this.lookTimes, time), 0)];
   }
 

@@ -5,6 +5,7 @@ import { element } from "./element";
 import { Gantt } from "./gantt";
 import { Line } from "./line";
 import { type Told, VERSION } from "./messages";
+import type { Run } from "./run";
 import { RunCard } from "./runCard";
 import { LiveRun, RecordedRun } from "./runSource";
 import type { Scene } from "./scene";
@@ -17,6 +18,8 @@ export class RunPage {
   private readonly stop: Stop | undefined;
   private readonly controls: Controls | undefined;
   private line: Line | undefined;
+  private shown = "";
+  private of: Run | undefined;
 
   constructor(
     readonly source: LiveRun | RecordedRun, private readonly scene: Scene, private readonly changed: () => void,
@@ -72,6 +75,11 @@ export class RunPage {
   update(fractions: Float64Array): void {
     const { run, time } = this.source;
     if (run === undefined) return;
+    // Going around changes nothing of it.
+    const now = `${time} ${run.happenings.length} ${run.lookAt(time)?.mcu_us} ${run.report !== undefined} ${innerWidth} ${innerHeight} ${document.documentElement.dataset["theme"]}`;
+    if (now === this.shown && run === this.of) return;
+    this.shown = now;
+    this.of = run;
     this.card.update(run, time, fractions);
     const end = this.source instanceof RecordedRun ? this.source.timeline.end : Math.max(run.expectedEnd * 1.05, time, 1);
     this.gantt.draw(run, time, end);

@@ -57,7 +57,8 @@ export class LiveRun extends RunSource {
   take(told: Told): void {
     if (told.type === "begin") this.run = new Run(told, this.scene);
     else this.run?.take(told);
-    this.changed = true;
+    // A look at a rig on which nothing moves changes nothing of the picture.
+    this.changed ||= told.type !== "look" || told.motions.length > 0;
   }
 
   advance(): boolean {

@@ -16,6 +16,9 @@ import { Toolbar } from "./toolbar";
 
 /** A pointer that went less far, in pixels, picked something. */
 const DRAG = 4;
+/** A frame of a run that takes longer, in milliseconds, so many times in a row, is drawn with less: keys come first. */
+const SLOW = 120;
+const SLOW_FRAMES = 3;
 
 export class Viewer {
   private readonly places: Places;
@@ -35,6 +38,12 @@ export class Viewer {
   private across = 0;
   private asked = false;
   private last = 0;
+  /** The picture isn't what was asked for, whatever the source says. */
+  private stale = true;
+  /** News are shown no sooner than this. */
+  private rest = 0;
+  private waiting = false;
+  private slow = 0;
   /** How long the last frames took, in milliseconds of this page's own work. */
   readonly work: number[] = [];
 
@@ -47,7 +56,7 @@ export class Viewer {
     this.labels = new Labels(labels, scene);
     this.colours = paint(this.mode, scene, this.places);
     if (source instanceof LiveRun || source instanceof RecordedRun) {
-      this.run = new RunPage(source, scene, () => this.ask(), (time) => this.seek(time));
+      this.run = new RunPage(source, scene, () => this.news(), (time) => this.seek(time));
       document.documentElement.dataset["run"] = scene.run?.from;
     }
     this.bar = new TimeBar(source, () => this.playOrPause(), () => this.ask(), this.run?.gantt.root);
@@ -83,32 +92,57 @@ export class Viewer {
 
   /** Draws soon. */
   private ask(): void {
+    this.stale = true;
+    this.frameSoon();
+  }
+
+  /** Shows what is new of a run. A page that draws slowly keeps half its time for keys, and for what the program says. */
+  private news(): void {
+    const wait = this.rest - performance.now();
+    if (wait <= 0) return this.frameSoon();
+    if (this.waiting) return;
+    this.waiting = true;
+    setTimeout(() => {
+      this.waiting = false;
+      this.frameSoon();
+    }, wait);
+  }
+
+  private frameSoon(): void {
     if (this.asked) return;
     this.asked = true;
+    const asked = performance.now();
     requestAnimationFrame((now) => {
       this.asked = false;
       const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
       this.draw(passed);
+      const done = performance.now();
+      this.rest = done + Math.min(2 * (done - asked), 1000);
+      this.slow = done - asked > SLOW ? this.slow + 1 : 0;
+      if (this.run && this.slow === SLOW_FRAMES) this.stage.lighten();
       this.last = this.asked ? now : 0;
     });
   }
 
   private draw(passed: number): void {
     const start = performance.now();
-    this.source.advance(passed);
+    const moved = this.source.advance(passed);
     const { state, playing } = this.source;
     // Apart and together in a quarter of a second.
     const way = this.explodeTo - this.explode;
     this.explode += Math.abs(way) < 0.004 ? way : way * Math.min(1, passed * 12 + 0.05);
-    if (this.mode === "temperature") this.stage.paint(paint(this.mode, this.scene, this.places, state.celsius));
-    this.stage.place(state, state.share, this.explode);
-    this.stage.render();
-    const { motion, bars, camera, size } = this.stage;
-    const all = this.scene.hinges.map((_, hinge) => hinge);
-    const own = this.picked === undefined ? [] : [...this.places.hinges[this.picked]!];
-    const shown = this.hinges ? all : own;
-    const apart = { by: motion.apart, share: this.explode };
-    this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
+    if (moved || this.stale) {
+      this.stale = false;
+      if (this.mode === "temperature") this.stage.paint(paint(this.mode, this.scene, this.places, state.celsius));
+      this.stage.place(state, state.share, this.explode);
+      this.stage.render();
+      const { motion, bars, camera, size } = this.stage;
+      const all = this.scene.hinges.map((_, hinge) => hinge);
+      const own = this.picked === undefined ? [] : [...this.places.hinges[this.picked]!];
+      const shown = this.hinges ? all : own;
+      const apart = { by: motion.apart, share: this.explode };
+      this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
+    }
     this.bar.update();
     this.card.update(state.fractions);
     this.run?.update(state.fractions);

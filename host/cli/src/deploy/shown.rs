@@ -24,6 +24,18 @@ pub(super) struct Shown {
     screen: Screen,
 }
 
+impl Shown {
+    /// What says how a page is to be served is no good without one.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        let Screen { view_port, no_open, pace } = self.screen;
+        let said = [(view_port != 0, "--view-port"), (no_open, "--no-open"), (pace != 1.0, "--pace")];
+        match said.iter().find(|(said, _)| *said && !self.view) {
+            Some((_, option)) => Err(Failure::BadInput(anyhow!("{option} needs --view"))),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Runs until somebody ends it; succeeds only when every hinge is at its angle.
 pub(super) fn run(arguments: &Arguments, job: Job, interrupted: &dyn Fn() -> bool) -> Result<(), Failure> {
     let Shown { yes, screen, .. } = &arguments.shown;

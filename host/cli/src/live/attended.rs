@@ -166,9 +166,10 @@ impl Attended<'_> {
             self.tell(&failure);
         }
         self.hub.report(&report);
-        let stage = self.after(&report);
         self.last = Some((load.run, report));
-        self.rest(stage);
+        if let Some((_, report)) = &self.last {
+            self.rest(self.after(report));
+        }
         Ok(())
     }
 
