@@ -61,15 +61,15 @@ async function start(page: Page): Promise<void> {
 }
 
 test("a run is armed, started and seen through to its end", async () => {
-  const served = await deploy("--pace", "15", "--record", "whole.mcap");
+  const served = await deploy("--pace", "8", "--record", "whole.mcap");
   const page = await look(served.address);
   await stage(page, "loaded");
   const still = await mosaic(page, 24, 16);
   await page.waitForTimeout(300);
   expect(await opened(page)).toBe(0);
+  expect(await page.locator("#run .waiting").textContent()).toMatch(/^Waiting: \d.*after \d/);
   await start(page);
   expect(await page.locator("#run .moving").innerText()).toMatch(/Hinge \d\s+heating, \d+ %\s+\d+ °C\s+\d+°/);
-  expect(await page.locator("#run .waiting").textContent()).toMatch(/^Waiting: \d/);
   expect(await page.getByRole("combobox", { name: "Colour" }).inputValue()).toBe("temperature");
   await stage(page, "over");
   expect(await opened(page)).toBe(5);
@@ -81,7 +81,7 @@ test("a run is armed, started and seen through to its end", async () => {
 });
 
 test("one key stops it, with a dialog open too, and the page says when the MCU has confirmed", async () => {
-  const page = await look((await deploy("--pace", "4")).address);
+  const page = await look((await deploy("--pace", "1")).address);
   await start(page);
   await page.keyboard.press("?");
   expect(await page.getByRole("dialog", { name: "Keys" }).isVisible()).toBe(true);
@@ -97,13 +97,14 @@ test("one key stops it, with a dialog open too, and the page says when the MCU h
   await order(page, "clear");
   await stage(page, "cleared");
   await order(page, "resume");
-  await start(page);
+  await stage(page, "loaded");
+  expect(await page.locator("#stop .told").textContent()).toBe("");
   await page.getByRole("button", { name: /STOP/ }).click();
   await page.locator('#stop[data-how="confirmed"]').waitFor();
 });
 
 test("a run is paused, and goes on from there", async () => {
-  const page = await look((await deploy("--pace", "15")).address);
+  const page = await look((await deploy("--pace", "4")).address);
   await start(page);
   await order(page, "pause");
   await stage(page, "paused");
@@ -118,7 +119,7 @@ test("a run is paused, and goes on from there", async () => {
 });
 
 test("a page without control watches and can stop; one that comes back sees all of it", async () => {
-  const { address } = await deploy("--pace", "4");
+  const { address } = await deploy("--pace", "0.5");
   const page = await look(address);
   await start(page);
   const second = await look(address);
@@ -155,7 +156,7 @@ test("without the secret, and from another page's address, nobody is let in", as
 });
 
 test("a stop that nobody can confirm is told loudly", async () => {
-  const served = await deploy("--pace", "4");
+  const served = await deploy("--pace", "1");
   const page = await look(served.address);
   await start(page);
   served.program.kill("SIGKILL");
@@ -169,7 +170,7 @@ test("a fault is told, and where", async () => {
   const scenario = join(repository, "sim/scenarios/s06-heater-open.toml");
   const page = await look((await deploy("--pace", "15", "--yes", "--scenario", scenario, "--record", "fault.mcap")).address);
   await stage(page, "safe");
-  expect(await page.locator("#run .faults").innerText()).toMatch(/F\d\d: .* at hinge \d/);
+  await page.locator("#run .faults", { hasText: /F\d\d: .* at hinge \d/ }).waitFor();
 });
 
 test("runs are chosen from a page, one after the other", async () => {

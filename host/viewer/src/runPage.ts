@@ -69,6 +69,8 @@ export class RunPage {
       case "welcome": case "stopping": case "look": case "report": break;
     }
     if (source instanceof LiveRun) source.take(told);
+    // What goes wrong doesn't wait for a frame.
+    if (told.type === "event" && ["fault", "lost", "state"].includes(told.kind)) this.update(source.state.fractions);
     this.changed();
   }
 
