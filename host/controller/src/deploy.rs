@@ -149,8 +149,9 @@ pub fn deploy<T: Transport>(
         return Err(DeployError::Recording { message });
     }
     let report = RunReport::new(run, schedule, &board, &firmware);
-    let (started, ended, finished, attended) = (None, None, false, deployment.steer.is_some());
-    let mut watch = Watch { schedule, fittings, report, started, ended, finished, attended, log };
+    let (started, ended, finished, quiet) = (None, None, false, false);
+    let attended = deployment.steer.is_some();
+    let mut watch = Watch { schedule, fittings, report, started, ended, finished, attended, quiet, log };
     let begun = match deployment.steer {
         None => start(session, run, rig_id, limits).map(|()| None),
         Some(steer) => watch.until_started(session, deployment, steer, &(rig_id, limits), show),
@@ -231,6 +232,8 @@ struct Watch<'a, 'o> {
     finished: bool,
     /// A person starts it.
     attended: bool,
+    /// There were no news the last time.
+    quiet: bool,
     log: &'a mut EventLog<'o>,
 }
 
@@ -271,6 +274,7 @@ impl Watch<'_, '_> {
         };
         let now = session.now();
         self.log.follow(session.clock().fit());
+        self.quiet = notice.is_none();
         match notice {
             None => None,
             Some(Notice::Event(event)) => {

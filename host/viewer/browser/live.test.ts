@@ -69,7 +69,7 @@ test("a run is armed, started and seen through to its end", async () => {
   expect(await opened(page)).toBe(0);
   expect(await page.locator("#run .waiting").textContent()).toMatch(/^Waiting: \d.*after \d/);
   await start(page);
-  expect(await page.locator("#run .moving").innerText()).toMatch(/Hinge \d\s+heating, \d+ %\s+\d+ °C\s+\d+°/);
+  expect(await page.locator("#run .moving").innerText()).toMatch(/Hinge \d\s+heating \d+ %\s+\d+ °C\s+\d+°/);
   expect(await page.getByRole("combobox", { name: "Colour" }).inputValue()).toBe("temperature");
   await stage(page, "over");
   expect(await opened(page)).toBe(5);

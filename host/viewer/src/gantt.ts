@@ -34,7 +34,7 @@ export class Gantt {
     const scale = width / Math.max(end, 1e-9);
     const rows = height - CURRENT - GAP;
     const row = rows / Math.max(run.steps.length, 1);
-    const thick = Math.max(Math.min(row - 1, 9), 0.6);
+    const thick = row < 3 ? row : Math.min(row - 1, 9);
     run.steps.forEach((hinge, index) => {
       const { expected, started, opened, done } = run.courses[hinge]!;
       const top = index * row + (row - thick) / 2;

@@ -52,7 +52,7 @@ export class RunCard {
     const look = run.lookAt(time);
     const { pace, current_limit_a, line, rig } = run.begin;
     const rows: [string, string][] = [
-      ["Rig", `${rig} on ${line}${pace === 1 ? "" : `, ${pace} times as fast`}`],
+      ["Rig", `${rig} on ${line}${pace === 1 ? "" : `, × ${pace}`}`],
       ["Clock", `${minutes(time)} of ${minutes(run.expectedEnd)}`],
       ["Open", `${run.opened(time)} of ${run.courses.length} hinges`],
       ["Current", look ? `${look.current_a.toFixed(2)} A of ${current_limit_a.toFixed(1)} A` : "–"],
@@ -67,7 +67,7 @@ export class RunCard {
     const rows = motions.slice(0, MOST_MOVING).map(({ hinge, phase, temperature_c, duty }) => {
       const heat = temperature_c === undefined ? "" : `${temperature_c.toFixed(0)} °C`;
       const angle = `${Math.round(angleAt(this.scene, hinge, fractions[hinge] ?? 0))}°`;
-      const power = duty === undefined ? "" : `, ${Math.round(duty * 100)} %`;
+      const power = duty === undefined ? "" : ` ${Math.round(duty * 100)} %`;
       return element("li", {}, element("b", {}, `Hinge ${hinge}`), element("span", {}, `${phase}${power}`), element("span", {}, heat), element("span", {}, angle));
     });
     if (motions.length > rows.length) rows.push(element("li", { class: "note" }, `and ${motions.length - rows.length} more`));

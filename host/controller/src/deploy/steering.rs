@@ -104,7 +104,10 @@ impl Watch<'_, '_> {
     ) -> Option<Outcome> {
         match steer(Moment::Running) {
             Wish::Stop => Some(self.stop(session)),
-            Wish::Pause if !self.a_servo_is_under_way() => self.pause(session),
+            // A servo that opens is followed by the next one at once: its news have to be in.
+            Wish::Pause if self.quiet && !self.a_servo_is_under_way() && !self.all_are_open() => {
+                self.pause(session)
+            }
             Wish::Wait | Wish::GoOn | Wish::Pause => None,
         }
     }
@@ -117,6 +120,11 @@ impl Watch<'_, '_> {
                 self.take_event(session.now(), &event);
             }
         }
+    }
+
+    /// What is left is to cool: that is no motion to pause.
+    fn all_are_open(&self) -> bool {
+        self.report.count(HingeOutcome::Opened) == self.report.hinges.len()
     }
 
     fn a_servo_is_under_way(&self) -> bool {
