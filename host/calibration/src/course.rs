@@ -112,17 +112,17 @@ impl Span {
     }
 }
 
-/// Voltage during a part of a drive: of its sample next to that part's middle.
+/// Voltage during a part of a drive: of its sample next to that part's middle. A drive between two samples has none of its own; then
+/// the next sample of all must do.
 fn voltage_v(record: &Record, drive: &Drive, from_s: f64, until_s: f64) -> f64 {
-    let samples = record.during(drive);
     let middle_s = f64::midpoint(from_s, until_s);
+    let own = record.during(drive);
+    let samples = if own.is_empty() { &record.samples } else { own };
     let next = samples.partition_point(|sample| sample.t_s < middle_s);
     let apart_s =
         |index: usize| samples.get(index).map_or(f64::INFINITY, |sample| (sample.t_s - middle_s).abs());
     let near = if next > 0 && apart_s(next - 1) < apart_s(next) { next - 1 } else { next };
-    // A pulse between two samples: the supply at rest must do.
-    let idle_v = record.samples.first().map_or(0.0, |sample| sample.voltage_v);
-    samples.get(near).map_or(idle_v, |sample| sample.voltage_v)
+    samples.get(near).map_or(0.0, |sample| sample.voltage_v)
 }
 
 #[cfg(test)]

@@ -103,10 +103,11 @@ pub enum Diagnosis {
 
 /// What the electrical readings say of the heater.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Electrical {
-    pub(crate) ohm: f64,
+pub struct Electrical {
+    /// Resistance.
+    pub ohm: f64,
     /// Standard error of that.
-    pub(crate) error_ohm: f64,
+    pub error_ohm: f64,
 }
 
 const READABLE_C: core::ops::RangeInclusive<f64> = -40.0..=200.0;

@@ -64,6 +64,16 @@ impl Quantity {
         }
     }
 
+    /// As a key of files.
+    pub fn key(self) -> String {
+        self.name().replace(' ', "_")
+    }
+
+    /// Its unit as files have it.
+    pub fn ascii_unit(self) -> String {
+        self.unit().replace('°', "deg")
+    }
+
     /// Its unit.
     pub const fn unit(self) -> &'static str {
         match self {

@@ -3,13 +3,14 @@
 use crate::course::{Course, Moment};
 use crate::diagnosis::{self, Diagnosis};
 use crate::estimate::{Estimate, Interval, Quantity, Verdict, Why, Width};
+use crate::interval::{half_interval, value};
 use crate::model::Model;
 use crate::nominal::{Nominal, Transformation};
 use crate::pulse_plan::Purpose;
 use crate::record::{Record, RecordError};
 use crate::residuals::{HeldOut, Residuals};
-use crate::solve::{Covariance, Problem, Solution};
-use crate::space::{COUNT, Candidate, Point, Space};
+use crate::solve::{Problem, Solution};
+use crate::space::{Candidate, Point, Space};
 
 /// What a record says of its hinge.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +44,6 @@ impl Fit {
     }
 }
 
-/// Normal quantile of a two-sided interval of 95 %, a little wider for what the linearisation misses.
-const SIGMAS: f64 = 2.1;
 /// More than this, and the model is of something else.
 const MOST_MISFIT_K: f64 = 1.0;
 /// More than this, and what it predicts is not worth having.
@@ -247,7 +246,8 @@ impl Judge<'_> {
     fn not_reached(&self, quantity: Quantity) -> Option<Why> {
         // A cosine begins flat: less than this past As is hardly seen.
         const PAST_K: f64 = 2.0;
-        const NEARLY: f64 = 0.98;
+        // It ends flat as well: a foil that doesn't get hotter than where it stops may not have turned as a whole.
+        const BEYOND_K: f64 = 1.0;
         // Less austenite gives back too little heat.
         const HALF: f64 = 0.5;
         let highest_c = self.fitted.iter().map(|moment| moment.foil_c).fold(f64::NEG_INFINITY, f64::max);
@@ -263,7 +263,9 @@ impl Judge<'_> {
             | Quantity::ThermistorLag
             | Quantity::Opening => None,
             Quantity::AusteniteStart => unless(highest_c >= at.as_c + PAST_K, at.as_c + PAST_K),
-            Quantity::AusteniteFinish | Quantity::LatentHeat => unless(turned >= NEARLY, at.af_c),
+            Quantity::AusteniteFinish | Quantity::LatentHeat => {
+                unless(highest_c >= at.af_c + BEYOND_K, at.af_c + BEYOND_K)
+            }
             Quantity::MartensiteStart | Quantity::MartensiteFinish if turned < HALF => unless(false, at.af_c),
             Quantity::MartensiteStart | Quantity::MartensiteFinish => {
                 let hot = self.fitted.iter().position(|moment| moment.austenite >= HALF).unwrap_or(0);
@@ -276,36 +278,8 @@ impl Judge<'_> {
         }
     }
 
-    /// From the covariance, to the second order: where film and foil happen to cool alike, the capacity's slope over the film's
-    /// share is nothing, and its bend is all.
     fn interval(&self, quantity: Quantity, best: f64) -> Verdict {
-        const STEP: f64 = 0.05;
-        let at = |moves: &[(usize, f64)]| {
-            let mut there = self.solution.point;
-            for (parameter, step) in moves {
-                there[*parameter] += step;
-            }
-            value(&self.space.at(&there).model, quantity).unwrap_or(best)
-        };
-        let mut slope = Point::zeros();
-        let mut bend = Covariance::zeros();
-        for a in 0..COUNT {
-            let (ahead, behind) = (at(&[(a, STEP)]), at(&[(a, -STEP)]));
-            slope[a] = (ahead - behind) / (2.0 * STEP);
-            bend[(a, a)] = (ahead - 2.0 * best + behind) / (STEP * STEP);
-            for b in 0..a {
-                let corners =
-                    [(STEP, STEP, 1.0), (STEP, -STEP, -1.0), (-STEP, STEP, -1.0), (-STEP, -STEP, 1.0)];
-                let mixed: f64 = corners.iter().map(|(x, y, sign)| sign * at(&[(a, *x), (b, *y)])).sum();
-                bend[(a, b)] = mixed / (4.0 * STEP * STEP);
-                bend[(b, a)] = bend[(a, b)];
-            }
-        }
-        let half = self.solution.covariance.map_or(f64::INFINITY, |covariance| {
-            let spread = bend * covariance;
-            let variance = slope.dot(&(covariance * slope)) + (spread * spread).trace() / 2.0;
-            (SIGMAS * variance.max(0.0).sqrt()).hypot(quantity.resolution()) + spread.trace().abs() / 2.0
-        });
+        let half = half_interval(&self.space, &self.solution, quantity, best);
         let most = match quantity.widest() {
             Width::Share(share) => share * best.abs(),
             Width::Absolute(most) => most,
@@ -316,23 +290,5 @@ impl Judge<'_> {
         } else {
             Verdict::NotIdentified { why: Why::TooWide { value: best, half, most, unit: quantity.unit() } }
         }
-    }
-}
-
-/// A quantity of a hinge; none of the angle.
-fn value(model: &Model, quantity: Quantity) -> Option<f64> {
-    let at = &model.transformation;
-    match quantity {
-        Quantity::ThermalResistance => Some(model.thermal_resistance_k_per_w()),
-        Quantity::TimeConstant => Some(model.time_constant_s()),
-        Quantity::HeaterResistance => Some(model.heater_ohm),
-        Quantity::LatentHeat => Some(model.latent_j),
-        Quantity::AusteniteStart => Some(at.as_c),
-        Quantity::AusteniteFinish => Some(at.af_c),
-        Quantity::MartensiteStart => Some(at.ms_c),
-        Quantity::MartensiteFinish => Some(at.mf_c),
-        Quantity::FoilRise => Some(model.foil_rise_k_per_w()),
-        Quantity::ThermistorLag => Some(model.lag_s),
-        Quantity::Opening => None,
     }
 }

@@ -25,13 +25,12 @@ const FEWEST: usize = 5;
 
 /// The key of a quantity in the calibration file.
 pub(crate) fn key(quantity: Quantity) -> String {
-    quantity.name().replace(' ', "_")
+    quantity.key()
 }
 
 /// A hinge's part of the calibration file.
 pub(crate) fn hinge_of(hinge: &Hinge, fit: &Fit, date: &str, firmware: &str) -> CalibratedHinge {
-    let unit = |quantity: Quantity| quantity.unit().replace('°', "deg");
-    let told = |value: f64, quantity: Quantity| format!("{value:.4} {}", unit(quantity));
+    let told = |value: f64, quantity: Quantity| format!("{value:.4} {}", quantity.ascii_unit());
     let calibrated = |Estimate { quantity, verdict }: &Estimate| match verdict {
         Verdict::Identified(interval) => Calibrated::Known {
             value: told(interval.value, *quantity),
@@ -79,6 +78,7 @@ pub(crate) fn hinge_of(hinge: &Hinge, fit: &Fit, date: &str, firmware: &str) -> 
         ambient: ambient_c.map(|celsius| format!("{celsius:.2} degC")),
         residuals,
         values,
+        servo: None,
     }
 }
 
@@ -171,6 +171,7 @@ mod tests {
             ambient: None,
             residuals: BTreeMap::new(),
             values: BTreeMap::from([(key(Quantity::HeaterResistance), known)]),
+            servo: None,
         }
     }
 

@@ -8,7 +8,7 @@ use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
 use crate::recording_file::{self, RecordingFile};
 use crate::view::{self, SceneOf};
-use crate::{identity, input, interrupt};
+use crate::{drift, identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -17,8 +17,8 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_controller::{
-    Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport, Session, Transport,
-    Wish, deploy,
+    DeployError, Deployment, DriftError, EarlierRun, EventLog, MotionState, Progress, RunReport,
+    SerialTransport, Session, Sightings, Transport, Wish, deploy,
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
 use zygote_live::{Choice, Hub};
@@ -37,6 +37,7 @@ const ANGLE_TOLERANCE_DEG: f64 = 1.0;
 
 /// Arguments of `zygote deploy`.
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Arguments {
     /// The plan
     #[arg(value_name = "PLAN.fold")]
@@ -70,6 +71,9 @@ pub(crate) struct Arguments {
     /// Recording as MCAP, a new file for every run [default: beside plan or schedule, .1.mcap, .2.mcap ...]
     #[arg(long, value_name = "FILE.mcap")]
     record: Option<PathBuf>,
+    /// Run it although its hinges were calibrated at another board, whose heaters and thermistors are others
+    #[arg(long)]
+    calibrated_at_another_board: bool,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -90,6 +94,7 @@ pub(crate) struct Target {
 }
 
 /// A run with its files.
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Job {
     plan_path: PathBuf,
     rig_path: PathBuf,
@@ -107,6 +112,7 @@ pub(crate) struct Job {
     record: Option<PathBuf>,
     json: bool,
     simulated: bool,
+    any_board: bool,
 }
 
 impl Job {
@@ -136,6 +142,7 @@ impl Job {
             record: None,
             json: false,
             simulated,
+            any_board: false,
         })
     }
 
@@ -151,6 +158,7 @@ impl Job {
             report: arguments.report.clone(),
             record: arguments.record.clone(),
             json: arguments.json,
+            any_board: arguments.calibrated_at_another_board,
             ..job
         })
     }
@@ -299,8 +307,10 @@ impl Order<'_> {
             RecordingFile::new(&self.recorded(), asked, of)?;
         let log_path = beside(job.log.as_ref(), of, "events.jsonl");
         let mut pages = attendance.hub;
-        let mut log =
-            EventLog::new(BufWriter::new(LateFile::new(log_path.clone()))).observed_by(&mut recorder);
+        let mut sightings = Sightings::default();
+        let mut log = EventLog::new(BufWriter::new(LateFile::new(log_path.clone())))
+            .observed_by(&mut recorder)
+            .observed_by(&mut sightings);
         if let Some(hub) = &mut pages {
             log = log.observed_by(hub);
         }
@@ -311,6 +321,8 @@ impl Order<'_> {
             run: number,
             open,
             clear: job.clear && first,
+            // What the simulator heats can't be harmed.
+            any_board: job.any_board || job.simulated,
             interrupted: attendance.interrupted,
             steer: attendance.hub.is_some().then_some(&wish),
         };
@@ -324,9 +336,19 @@ impl Order<'_> {
         bar.finish_and_clear();
         let log_error = log.error().map(ToString::to_string);
         drop(log);
-        let recorded = recorder.finish(outcome.as_ref().ok());
-        let report = outcome.or_failed()?;
-        let kept = self.keep(&report, &log_path, &recording_path).and_then(|()| {
+        let rig = &job.rig;
+        let outcome = outcome.map(|report| {
+            let drift =
+                rig.calibrated_by.as_ref().map(|known| sightings.drift(rig, known, schedule.steps.len()));
+            match drift {
+                Some(Ok(drift)) => (RunReport { drift, ..report }, None),
+                Some(Err(error)) => (report, Some(error)),
+                None => (report, None),
+            }
+        });
+        let recorded = recorder.finish(outcome.as_ref().ok().map(|(report, _)| report));
+        let (report, not_compared) = outcome.map_err(refused)?;
+        let kept = self.keep(&report, not_compared, &log_path, &recording_path).and_then(|()| {
             whole(&log_path, "log", log_error)?;
             whole(&recording_path, "recording", recorded.err().map(|error| error.to_string()))
         });
@@ -334,7 +356,13 @@ impl Order<'_> {
     }
 
     /// Writes the report, and tells it.
-    fn keep(&self, report: &RunReport, log: &Path, recording: &Path) -> Result<(), Failure> {
+    fn keep(
+        &self,
+        report: &RunReport,
+        not_compared: Option<DriftError>,
+        log: &Path,
+        recording: &Path,
+    ) -> Result<(), Failure> {
         let job = self.job;
         let path = beside(job.report.as_ref(), job.file(), "report.json");
         let json = serde_json::to_vec_pretty(report).or_failed()?;
@@ -343,6 +371,13 @@ impl Order<'_> {
             say(String::from_utf8_lossy(&json));
         } else {
             say(report);
+            let again = drift::command(&job.rig_path, &report.drift);
+            if !again.is_empty() {
+                say(format_args!("to calibrate them: {again}"));
+            }
+            if let Some(error) = not_compared {
+                say(format_args!("the hinges aren't held against their calibration: {error}"));
+            }
             let (path, log, recording) = (path.display(), log.display(), recording.display());
             say(format_args!("report: {path}\nevents: {log}\nrecording: {recording}"));
         }
@@ -362,6 +397,16 @@ impl Order<'_> {
             scenario: job.scenario.as_deref().map(name),
             started: (!job.simulated).then(recording_file::now),
         }
+    }
+}
+
+/// Nothing was energised. The wrong board is the user's to change, the rest isn't.
+fn refused(error: DeployError) -> Failure {
+    match error {
+        DeployError::OtherBoard { .. } => Failure::BadInput(
+            anyhow!(error).context("not on this board (--calibrated-at-another-board runs it all the same)"),
+        ),
+        other => Failure::Failed(other.into()),
     }
 }
 

@@ -103,6 +103,7 @@ fn run(
         run: 1,
         open: &BTreeSet::new(),
         clear: false,
+        any_board: false,
         interrupted: &|| interrupted(asked.replace(asked.get() + 1)),
         steer: None,
     };
@@ -156,6 +157,7 @@ fn a_stopped_board_wants_a_person_before_the_next_run() {
         run: 2,
         open: &BTreeSet::new(),
         clear: false,
+        any_board: false,
         interrupted: &|| false,
         steer: None,
     };
@@ -264,6 +266,7 @@ fn the_log_tells_events_in_host_time_and_the_report_the_rate_of_the_clock() {
         rig: &rig,
         run: 1,
         clear: false,
+        any_board: false,
         open: &BTreeSet::new(),
         interrupted: &|| false,
         steer: None,

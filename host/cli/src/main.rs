@@ -2,12 +2,17 @@
 
 mod alternatives;
 mod assembly;
+mod board_calibrations;
 mod calibrate;
+mod calibrate_servo;
+mod calibration_json;
+mod calibration_progress;
 mod calibration_report;
 mod calibration_table;
 mod check;
 mod checked_order;
 mod deploy;
+mod drift;
 mod explain;
 mod export;
 mod failure;
@@ -39,6 +44,8 @@ mod report;
 mod schedule;
 mod sequence;
 mod serve;
+mod servo_protractor;
+mod servo_report;
 mod settings;
 mod sim;
 mod table;

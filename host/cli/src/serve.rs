@@ -49,14 +49,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         jobs: &jobs,
         scenes,
         interrupted: &|| stop.load(Ordering::Relaxed),
-        pace: arguments.screen.pace,
+        pace: arguments.screen.pace(),
         only: false,
         at_once: false,
         last: None,
     };
     match line {
         Some(line) => attended.until_the_end(&mut Port { line: Some(line) }).map(drop),
-        None => attended.until_the_end(&mut Simulator { jobs: &jobs, pace: arguments.screen.pace }).map(drop),
+        None => {
+            attended.until_the_end(&mut Simulator { jobs: &jobs, pace: arguments.screen.pace() }).map(drop)
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, calibrate, check, deploy, explain, export, flash, fold_back, hil, link, net,
-    picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, serve, settings, sim, table,
-    tolerance, torque, view,
+    alternatives, assembly, calibrate, check, deploy, drift, explain, export, flash, fold_back, hil, link,
+    net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, serve, settings, sim,
+    table, tolerance, torque, view,
 };
 use clap::Subcommand;
 
@@ -43,6 +43,8 @@ pub(crate) enum Verb {
     Assembly(assembly::Arguments),
     /// Run a plan's schedule on a board or on the simulator
     Deploy(deploy::Arguments),
+    /// Tell which hinges of a recorded run aren't as they were calibrated
+    Drift(drift::Arguments),
     /// Serve a page from which runs are chosen, armed, started, paused and stopped
     Serve(serve::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
@@ -79,6 +81,7 @@ impl Verb {
             Self::Net(arguments) => net::run(&arguments),
             Self::Tolerance(arguments) => tolerance::run(&arguments),
             Self::Deploy(arguments) => deploy::run(&arguments),
+            Self::Drift(arguments) => drift::run(&arguments),
             Self::Calibrate(arguments) => calibrate::run(&arguments),
             Self::Link(arguments) => link::run(&arguments),
             Self::Explain(arguments) => explain::run(&arguments),

@@ -51,8 +51,14 @@ fn value(text: &str, hinge: usize, key: &str) -> f64 {
 #[test]
 fn two_hinges_are_calibrated_side_by_side_and_what_is_found_is_the_truth() {
     let place = Scratch::new("calibrates_two");
-    let run = calibrate(&place, RIG, &["--all"]);
+    let run = calibrate(&place, RIG, &["--all", "--json"]);
     assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    let told: Value = serde_json::from_str(&run.output).unwrap();
+    assert_eq!((told["rig"].as_str(), told["board"].as_str()), (Some("bench"), Some("simulated")));
+    let heater = &told["hinges"][1]["values"]["heater_resistance"];
+    assert!((heater["value"].as_f64().unwrap() - 22.0).abs() < 0.7, "{heater}");
+    assert!(told["hinges"][0]["values"]["opening"]["unknown"].is_string(), "{told}");
+    assert_eq!(run.errors, "", "no progress without a terminal");
     let text = place.read("calibration.toml");
     for (hinge, key, truth, within) in [
         (0, "heater_resistance", 27.0, 27.0 * 0.03),
@@ -69,6 +75,11 @@ fn two_hinges_are_calibrated_side_by_side_and_what_is_found_is_the_truth() {
     let records: Value = serde_json::from_slice(&place.bytes("calibration.records.json")).unwrap();
     assert_eq!((records["rig"].as_str(), records["complete"].as_bool()), (Some("bench"), Some(true)));
     assert!(place.read("calibration.html").matches("<svg").count() == 2);
+    assert!(
+        run.output.contains("the board keeps what is known of 2 heater(s) and servo(s), 2 of them new"),
+        "{}",
+        run.output
+    );
     // One of them again, at a rig that has changed its name.
     let renamed = RIG.replace("\"bench\"", "\"other\"");
     let run = calibrate(&place, &renamed, &["--hinge", "1"]);
@@ -153,6 +164,52 @@ fn step(place: &Scratch, hinge: usize) -> (u64, i64) {
     (step["current_ma"].as_u64().unwrap(), step["motion"]["min_gain_centi_celsius"].as_i64().unwrap())
 }
 
+/// The heater of hinge 3 ages: a run says so, live, on its page, and again from its recording.
+fn drifts(place: &Scratch, calibrated: &str, deploy: &[&str]) {
+    let drift = ["drift", "schedule.1.mcap", "--rig", "rig.toml"];
+    let run = place.zygote(&drift);
+    assert_eq!((run.code, run.output.as_str()), (0, "hinge 3: keep\n"), "{}", run.errors);
+    place.write("rig.toml", &calibrated.replace("29 ohm", "32 ohm"));
+    let run = place.zygote(deploy);
+    assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
+    assert!(run.output.contains("recalibrate hinge 3: heater resistance 3"), "{}", run.output);
+    assert!(run.output.contains("zygote calibrate --rig rig.toml --hinge 3"), "{}", run.output);
+    let report: Value = serde_json::from_slice(&place.bytes("schedule.report.json")).unwrap();
+    assert_eq!(report["drift"][0]["verdict"], "recalibrate", "{report}");
+    let run = place.zygote(&["drift", "schedule.2.mcap", "--rig", "rig.toml", "--json"]);
+    assert_eq!(run.code, 1, "{}", run.errors);
+    let told: Value = serde_json::from_str(&run.output).unwrap();
+    assert_eq!(told["hinges"], report["drift"], "as it was told live");
+    assert_eq!(place.zygote(&["report", "schedule.2.mcap"]).code, 0);
+    assert!(place.read("schedule.2.html").contains("<td class=\"bad\">recalibrate</td>"));
+    place.write("rig.toml", LARGE);
+    let run = place.zygote(&drift);
+    assert_eq!(run.code, 2, "{}", run.output);
+    assert!(run.errors.contains("names no calibration"), "{}", run.errors);
+    place.write("rig.toml", calibrated);
+}
+
+/// What was measured at one board isn't run on another, unless somebody insists.
+fn stays_at_its_board(place: &Scratch, schedule: &[&str]) {
+    let own = place.read("calibration.toml");
+    let other = own.replace("unique_id = \"", "unique_id = \"ff");
+    place.write("calibration.toml", &other);
+    let run = place.zygote(schedule);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let mut board = place.start(&["sim", "--rig", "rig.toml"]);
+    let port = board.first_line();
+    let deploy =
+        ["deploy", "plan.fold", "--schedule", "schedule.json", "--rig", "rig.toml", "--port", port.as_str()];
+    let run = place.zygote(&deploy);
+    assert_eq!(run.code, 2, "{}{}", run.output, run.errors);
+    for part in ["a calibration at board simulated ff", "--calibrated-at-another-board"] {
+        assert!(run.errors.contains(part), "{}", run.errors);
+    }
+    drop(board);
+    place.write("calibration.toml", &own);
+    assert_eq!(place.zygote(schedule).code, 0);
+}
+
 #[test]
 fn a_rig_that_names_its_calibration_is_driven_by_what_was_measured() {
     let place = Scratch::new("drives_by_calibration");
@@ -185,6 +242,7 @@ fn a_rig_that_names_its_calibration_is_driven_by_what_was_measured() {
     place.write("rig.toml", &calibrated);
     let stale = place.zygote(&deploy);
     assert_eq!(stale.code, 2, "a schedule made without the calibration: {}{}", stale.output, stale.errors);
+    assert!(stale.errors.contains("it was made without a calibration"), "{}", stale.errors);
 
     let run = place.zygote(&schedule);
     assert_eq!(run.code, 0, "{}", run.errors);
@@ -195,6 +253,9 @@ fn a_rig_that_names_its_calibration_is_driven_by_what_was_measured() {
     let run = place.zygote(&deploy);
     assert_eq!(run.code, 0, "{}{}", run.output, run.errors);
     assert!(run.output.contains("true angles: 13 of 13 hinges"), "{}", run.output);
+    assert!(run.output.contains("calibration: 1 of 1 hinges are as they were measured"), "{}", run.output);
+    drifts(&place, &calibrated, &deploy);
+    stays_at_its_board(&place, &schedule);
 
     let other = place.read("calibration.toml").replace("rig = \"bench\"", "rig = \"other\"");
     place.write("calibration.toml", &other);

@@ -2,6 +2,7 @@
 
 mod steering;
 
+use crate::calibrate::chip_id;
 use crate::event_log::{EventLog, Record};
 use crate::inbox::Notice;
 use crate::program::{self, ProgramError};
@@ -10,7 +11,7 @@ use crate::session::{RequestError, Session, SessionError};
 use crate::{MotionState, Transport};
 use std::collections::BTreeSet;
 pub use steering::{Moment, Wish};
-use zygote_deployment::{Fitting, Rig, RigError, Schedule};
+use zygote_deployment::{CalibratedAt, Fitting, Rig, RigError, Schedule};
 use zygote_protocol::{
     CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Milliamps, Millis, Millivolts,
     Reply, RigId, State, Step, Telemetry, program_crc,
@@ -32,6 +33,17 @@ pub enum DeployError {
     /// The rig doesn't fit the schedule.
     #[error(transparent)]
     Rig(#[from] RigError),
+    /// The schedule goes by what was measured at another board.
+    #[error(
+        "the schedule goes by a calibration at board {expected}, this is board {found}: connect that board, or calibrate this one \
+         and make the schedule anew"
+    )]
+    OtherBoard {
+        /// Where the hinges were measured.
+        expected: CalibratedAt,
+        /// What answers.
+        found: CalibratedAt,
+    },
     /// The rig's name is longer than the wire allows.
     #[error("rig id {id:?}: expected at most 32 bytes, found {}", .id.len())]
     RigId {
@@ -106,6 +118,8 @@ pub struct Deployment<'a> {
     pub open: &'a BTreeSet<usize>,
     /// Leave the safe state first: a person has looked at the rig.
     pub clear: bool,
+    /// Run it although its hinges were calibrated at another board.
+    pub any_board: bool,
     /// Asked often: does the user want to stop?
     pub interrupted: &'a dyn Fn() -> bool,
     /// Asked often as well: what whoever attends the run wants. Without it, it is armed and started at once.
@@ -126,6 +140,11 @@ pub fn deploy<T: Transport>(
     let schedule = &whole.rest(deployment.open);
     let info = session.info().clone();
     let (board, firmware) = (info.identity.board.to_string(), info.identity.firmware.to_string());
+    let found = CalibratedAt { board: board.clone(), unique_id: chip_id(&info) };
+    if let Some(expected) = schedule.calibrated_at.clone().filter(|at| *at != found && !deployment.any_board)
+    {
+        return Err(DeployError::OtherBoard { expected, found });
+    }
     let fittings = rig.fit(whole.steps.len())?;
     let steps = program::program(schedule, &info)?;
     let limits = program::limits(schedule, &steps, rig, &info)?;
@@ -139,6 +158,7 @@ pub fn deploy<T: Transport>(
             board: board.clone(),
             firmware: firmware.clone(),
             boot: info.identity.boot,
+            chip: chip_id(&info),
         },
     );
     log.add(session.now(), &Record::Uploaded { run, steps: steps.len() });
@@ -451,6 +471,7 @@ impl Watch<'_, '_> {
                 board: identity.board.to_string(),
                 firmware: identity.firmware.to_string(),
                 boot: identity.boot,
+                chip: chip_id(session.info()),
             },
         );
         match session.status() {

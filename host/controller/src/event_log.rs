@@ -23,6 +23,9 @@ pub enum Record {
         firmware: String,
         /// Its boot id.
         boot: u32,
+        /// The chip's unique id, in hex.
+        #[serde(default)]
+        chip: String,
     },
     /// The program is stored and checked.
     Uploaded {
@@ -191,7 +194,7 @@ impl<'a> EventLog<'a> {
         }
     }
 
-    /// With one more who is told the same.
+    /// With somebody more who is told the same.
     #[must_use]
     pub fn observed_by(mut self, observer: &'a mut dyn Observer) -> Self {
         self.observers.push(observer);
@@ -214,7 +217,9 @@ impl<'a> EventLog<'a> {
         }
         // A run whose log can't be begun isn't started; it leaves no other trace either.
         if self.begun {
-            self.observers.iter_mut().for_each(|observer| observer.observe(times, record));
+            for observer in &mut self.observers {
+                observer.observe(times, record);
+            }
         }
     }
 
@@ -229,7 +234,7 @@ impl<'a> EventLog<'a> {
         self.error.as_ref()
     }
 
-    /// An observer's first error.
+    /// The first error of the first observer that has one.
     pub fn observer_error(&self) -> Option<String> {
         self.observers.iter().find_map(|observer| observer.error())
     }

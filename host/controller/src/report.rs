@@ -1,6 +1,6 @@
 //! What came of a run (S12): which hinges moved, which didn't, why, and what to do next.
 
-use crate::ClockFit;
+use crate::{ClockFit, DriftVerdict, HingeDrift};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use zygote_deployment::{Direction, Kind, Schedule};
@@ -85,6 +85,9 @@ pub struct RunReport {
     pub repeated_frames: u32,
     /// The MCU's clock against the host's; none when the MCU never told its time.
     pub clock: Option<ClockFit>,
+    /// Hinges held against their calibration, where they have one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub drift: Vec<HingeDrift>,
     /// What to do now.
     pub next: String,
 }
@@ -120,6 +123,7 @@ impl RunReport {
             damaged_frames: 0,
             repeated_frames: 0,
             clock: None,
+            drift: Vec::new(),
             next: String::new(),
         }
     }
@@ -167,6 +171,25 @@ pub(crate) fn complete(direction: Direction) -> Outcome {
     match direction {
         Direction::Deploy => Outcome::Deployed,
         Direction::Fold => Outcome::Folded,
+    }
+}
+
+impl RunReport {
+    fn tell_drift(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.drift.is_empty() {
+            return Ok(());
+        }
+        let of = |verdict| self.drift.iter().filter(move |hinge| hinge.verdict == verdict);
+        let (kept, all) = (of(DriftVerdict::Keep).count(), self.drift.len());
+        writeln!(f, "calibration: {kept} of {all} hinges are as they were measured")?;
+        for hinge in of(DriftVerdict::Recalibrate) {
+            writeln!(f, "recalibrate hinge {}: {}", hinge.hinge, hinge.why.join("; "))?;
+        }
+        let unclear: Vec<_> = of(DriftVerdict::CannotTell).map(|hinge| hinge.hinge.to_string()).collect();
+        if unclear.is_empty() {
+            return Ok(());
+        }
+        writeln!(f, "not shown by this run: hinges {}; `zygote drift` says why", unclear.join(", "))
     }
 }
 
@@ -227,6 +250,7 @@ impl fmt::Display for RunReport {
                 "MCU clock: {rate_ppm:+.1} ppm, residual {residual_us:.0} us ({exchanges} readings)"
             )?;
         }
+        self.tell_drift(f)?;
         write!(f, "next: {}", self.next)
     }
 }

@@ -1,11 +1,14 @@
 //! The calibration file: what was measured of a rig's hinges, with intervals. `zygote calibrate` writes it, people read it.
 
+use crate::calibrated_servo::CalibratedServo;
 use crate::rig::{Celsius, Joules, KelvinsPerWatt, Ohms, Seconds};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
-/// The one version of the file.
-const VERSION: u32 = 1;
+/// The version of the file that is written. The first knew no servos; it is read too.
+const VERSION: u32 = 2;
+const OLDEST: u32 = 1;
 
 /// A calibration file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,6 +24,28 @@ pub struct Calibration {
     /// The hinges, by number.
     #[serde(rename = "hinge")]
     pub hinges: Vec<CalibratedHinge>,
+}
+
+/// A board that hinges were measured at, and a schedule is made for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CalibratedAt {
+    /// The board's name.
+    pub board: String,
+    /// The chip's unique id, in hex.
+    pub unique_id: String,
+}
+
+impl fmt::Display for CalibratedAt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.board, self.unique_id)
+    }
+}
+
+/// The file's version, whatever else it has.
+#[derive(Deserialize)]
+struct Versioned {
+    version: u32,
 }
 
 /// One hinge.
@@ -49,6 +74,9 @@ pub struct CalibratedHinge {
     /// Values with their intervals of 95 %, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub values: BTreeMap<String, Calibrated>,
+    /// Of a servo hinge, what was found instead of values.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub servo: Option<CalibratedServo>,
 }
 
 /// What to think of a hinge's calibration.
@@ -121,7 +149,7 @@ pub enum CalibrationError {
         message: String,
     },
     /// Another version.
-    #[error("expected version {VERSION}, found {found}")]
+    #[error("expected version {OLDEST} to {VERSION}, found {found}")]
     Version {
         /// What it says.
         found: u32,
@@ -158,15 +186,24 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError`], for what is no calibration of `rig`.
     pub fn read(text: &str, rig: &str) -> Result<Self, CalibrationError> {
-        let calibration: Self = toml::from_str(text)
-            .map_err(|error| CalibrationError::Parse { message: error.to_string().trim_end().to_owned() })?;
-        if calibration.version != VERSION {
-            return Err(CalibrationError::Version { found: calibration.version });
+        let parse = |error: toml::de::Error| CalibrationError::Parse {
+            message: error.to_string().trim_end().to_owned(),
+        };
+        // Before the keys: a file of another version may have keys that this one doesn't know.
+        let Versioned { version } = toml::from_str(text).map_err(parse)?;
+        if !(OLDEST..=VERSION).contains(&version) {
+            return Err(CalibrationError::Version { found: version });
         }
+        let calibration = Self { version: VERSION, ..toml::from_str(text).map_err(parse)? };
         if calibration.rig != rig {
             return Err(CalibrationError::OtherRig { expected: rig.to_owned(), found: calibration.rig });
         }
         Ok(calibration)
+    }
+
+    /// The board that it was made at.
+    pub fn at(&self) -> CalibratedAt {
+        CalibratedAt { board: self.board.clone(), unique_id: self.unique_id.clone() }
     }
 
     /// Takes in hinges that were measured at the same board; what the file had of them before is replaced.
@@ -174,9 +211,9 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError::OtherBoard`]; nothing is taken in then.
     pub fn take_in(&mut self, newer: Self) -> Result<(), CalibrationError> {
-        let name = |of: &Self| format!("{} {}", of.board, of.unique_id);
-        if name(self) != name(&newer) {
-            return Err(CalibrationError::OtherBoard { expected: name(&newer), found: name(self) });
+        if self.at() != newer.at() {
+            let (expected, found) = (newer.at().to_string(), self.at().to_string());
+            return Err(CalibrationError::OtherBoard { expected, found });
         }
         self.hinges.retain(|old| newer.hinges.iter().all(|new| new.hinge != old.hinge));
         self.hinges.extend(newer.hinges);
@@ -207,6 +244,23 @@ impl CalibratedHinge {
             austenite_start: self.value("austenite_start")?,
             austenite_finish: self.value("austenite_finish")?,
         })
+    }
+
+    /// Value, lower and upper end of a quantity in `unit`; none where the measurement doesn't have it.
+    ///
+    /// # Errors
+    /// Numbers that can't be read, or with another unit.
+    pub fn interval(&self, key: &str, unit: &str) -> Result<Option<[f64; 3]>, CalibrationError> {
+        let Some(Calibrated::Known { value, low, high }) = self.values.get(key) else { return Ok(None) };
+        let number = |text: &String| {
+            let number = text.strip_suffix(unit).and_then(|number| number.trim().parse::<f64>().ok());
+            number.filter(|number| number.is_finite()).ok_or_else(|| {
+                let message =
+                    format!("hinge {}: {key}: expected a number in {unit}, found {text:?}", self.hinge);
+                CalibrationError::Parse { message }
+            })
+        };
+        Ok(Some([number(value)?, number(low)?, number(high)?]))
     }
 
     fn value<T: std::str::FromStr<Err: std::fmt::Display>>(
@@ -249,6 +303,7 @@ mod tests {
                 ("heater_resistance".to_owned(), value),
                 ("austenite_finish".to_owned(), unknown),
             ]),
+            servo: None,
         }
     }
 
@@ -270,12 +325,19 @@ mod tests {
         let text = calibration(vec![]).text().unwrap();
         let error = Calibration::read(&text, "other").unwrap_err().to_string();
         assert_eq!(error, "a calibration of rig \"r\", expected \"other\": calibrate this rig");
-        let newer = text.replace("version = 1", "version = 2");
-        assert_eq!(Calibration::read(&newer, "r"), Err(CalibrationError::Version { found: 2 }));
+        let newer = text.replace("version = 2", "version = 3\nnew = 1");
+        assert_eq!(Calibration::read(&newer, "r"), Err(CalibrationError::Version { found: 3 }));
         assert!(matches!(Calibration::read("no", "r"), Err(CalibrationError::Parse { .. })));
         let mut old = calibration(vec![hinge(1, "25 ohm")]);
         let new = Calibration { unique_id: "01".to_owned(), ..calibration(vec![]) };
         assert!(matches!(old.take_in(new), Err(CalibrationError::OtherBoard { .. })));
+    }
+
+    #[test]
+    fn a_file_of_the_first_version_is_read_and_written_as_the_newest() {
+        let written = calibration(vec![hinge(1, "25.1 ohm")]);
+        let first = written.text().unwrap().replace("version = 2", "version = 1");
+        assert_eq!(Calibration::read(&first, "r"), Ok(written));
     }
 
     #[test]
@@ -286,6 +348,18 @@ mod tests {
         let ohm =
             |hinge: &CalibratedHinge| (hinge.hinge, hinge.known().unwrap().heater_resistance.unwrap().0);
         assert_eq!(calibration.hinges.iter().map(ohm).collect::<Vec<_>>(), [(1, 2.0), (2, 1.0), (3, 26.0)]);
+    }
+
+    #[test]
+    fn an_interval_is_read_in_its_own_unit_and_in_no_other() {
+        let hinge = hinge(4, "25 ohm");
+        assert_eq!(hinge.interval("heater_resistance", "ohm"), Ok(Some([25.0, 24.8, 25.4])));
+        assert_eq!(hinge.interval("austenite_finish", "degC"), Ok(None));
+        let error = hinge.interval("heater_resistance", "K/W").unwrap_err().to_string();
+        assert!(
+            error.contains("hinge 4: heater_resistance: expected a number in K/W, found \"25 ohm\""),
+            "{error}"
+        );
     }
 
     #[test]

@@ -13,6 +13,7 @@
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
 
+mod calibrated_servo;
 mod calibration;
 pub mod dense;
 mod heating;
@@ -31,8 +32,9 @@ mod testing;
 mod tolerance;
 mod tree;
 
+pub use calibrated_servo::{CalibratedServo, NoPulse, ServoPoint};
 pub use calibration::{
-    Calibrated, CalibratedHinge, Calibration, CalibrationError, CalibrationVerdict, Known,
+    Calibrated, CalibratedAt, CalibratedHinge, Calibration, CalibrationError, CalibrationVerdict, Known,
 };
 pub use kinematics::Kinematics;
 pub use order::{Order, WaitError};

@@ -116,7 +116,7 @@ impl Line<'_> {
                 };
                 if let Some(why) = refusal {
                     self.refuse(None, &why)?;
-                    self.close()?;
+                    self.close();
                     return Err(Error::ConnectionClosed);
                 }
                 let page = self.hub.come();
@@ -130,7 +130,7 @@ impl Line<'_> {
             }
             (None, _) => {
                 self.refuse(None, "the first message has to be `hello`")?;
-                self.close()?;
+                self.close();
                 Err(Error::ConnectionClosed)
             }
             (Some(_), Said::Hello { .. }) => self.refuse(None, "it was let in already"),
@@ -159,18 +159,17 @@ impl Line<'_> {
     }
 
     /// Says goodbye, and waits a little for the page to have heard it.
-    fn close(&mut self) -> Result<(), Error> {
+    fn close(&mut self) {
         let since = Instant::now();
         let mut gone = self.socket.close(None);
         while since.elapsed() < HELLO_WITHIN {
             match gone {
                 Err(Error::Io(error)) if is_for_later(&error) => {}
                 Ok(()) => {}
-                Err(_) => return Ok(()),
+                Err(_) => return,
             }
             gone = self.socket.read().map(drop);
         }
-        Ok(())
     }
 
     /// Tells all that is new, until the page takes no more.

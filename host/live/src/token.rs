@@ -20,7 +20,7 @@ impl Token {
     pub fn fresh() -> Result<Self, TokenError> {
         let mut bytes = [0; 16];
         getrandom::fill(&mut bytes).map_err(TokenError)?;
-        Ok(Self(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+        Ok(Self(format!("{:032x}", u128::from_be_bytes(bytes))))
     }
 
     /// Whether somebody knows it. How long that takes says nothing of how much of it was right.

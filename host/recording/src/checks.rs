@@ -112,6 +112,7 @@ impl Rehearsal {
             run: 1,
             open: &open,
             clear: false,
+            any_board: false,
             interrupted: &|| false,
             steer: None,
         };

@@ -18,6 +18,7 @@ mod recorder;
 mod run;
 mod scene;
 mod schema;
+mod sightings;
 mod stamp;
 mod timeline;
 mod told;

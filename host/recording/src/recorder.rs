@@ -200,8 +200,8 @@ impl<W: Write + Seek> File<W> {
         record: &Record,
         scene: &mut Scene,
     ) -> Result<(), McapError> {
-        if let Record::Connected { line, board, firmware, boot } = record {
-            self.identity(line, board, firmware, *boot)?;
+        if let Record::Connected { line, board, firmware, boot, chip } = record {
+            self.identity(line, board, firmware, *boot, chip)?;
         }
         if let Record::Telemetry { mcu_us, supply_mv, current_ma, opened, motions, .. } = record {
             let telemetry = Telemetry {
@@ -243,8 +243,16 @@ impl<W: Write + Seek> File<W> {
     }
 
     /// Who is at the other end; once more after it was lost and found.
-    fn identity(&mut self, line: &str, board: &str, firmware: &str, boot: u32) -> Result<(), McapError> {
-        let said = [("line", line), ("board", board), ("firmware", firmware), ("boot", &boot.to_string())];
+    fn identity(
+        &mut self,
+        line: &str,
+        board: &str,
+        firmware: &str,
+        boot: u32,
+        chip: &str,
+    ) -> Result<(), McapError> {
+        let boot = &boot.to_string();
+        let said = [("line", line), ("board", board), ("firmware", firmware), ("boot", boot), ("chip", chip)];
         let metadata = said.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
         self.writer.write_metadata(&Metadata { name: metadata::IDENTITY.to_owned(), metadata })
     }

@@ -14,7 +14,7 @@ pub(crate) enum Level {
 pub(crate) fn sentence(record: &Record) -> Option<(Level, String)> {
     let said = match record {
         Record::Telemetry { .. } => return None,
-        Record::Connected { line, board, firmware, boot } => {
+        Record::Connected { line, board, firmware, boot, .. } => {
             (Level::Info, format!("connected: {board} with firmware {firmware} on {line}, boot {boot}"))
         }
         Record::Uploaded { run, steps } => (Level::Info, format!("run {run} uploaded: {steps} steps")),

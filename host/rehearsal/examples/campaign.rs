@@ -1,21 +1,23 @@
-//! `campaign --runs N --seed S [--threads T]`: random trials, judged. `campaign --replay SEED:NUMBER`: one of them again,
+//! `campaign --runs N --seed S [--threads T] [--calibrate]`: random trials, judged; with `--calibrate` of calibrations. `campaign --replay SEED:NUMBER`: one of them again,
 //! with a log of what happened.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to its terminal")]
 
 use std::process::ExitCode;
 use std::thread::available_parallelism;
 use std::time::Instant;
-use zygote_rehearsal::campaign;
+use zygote_rehearsal::campaign::{self, Work};
 
-const USAGE: &str = "usage: campaign [--runs N] [--seed S] [--threads T], or campaign --replay SEED:NUMBER";
+const USAGE: &str = "usage: campaign [--calibrate] [--runs N] [--seed S] [--threads T], or campaign [--calibrate] --replay SEED:NUMBER";
 /// Failures that are told in full.
 const SHOWN: usize = 20;
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (calibrate, arguments): (Vec<String>, Vec<String>) =
+        std::env::args().skip(1).partition(|argument| argument == "--calibrate");
+    let work = if calibrate.is_empty() { Work::Deploy } else { Work::Calibrate };
     let done = match arguments.as_slice() {
-        [option, trial] if option == "--replay" => replay(trial),
-        options => run(options),
+        [option, trial] if option == "--replay" => replay(work, trial),
+        options => run(work, options),
     };
     match done {
         Ok(true) => ExitCode::SUCCESS,
@@ -27,7 +29,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(options: &[String]) -> Result<bool, Box<dyn std::error::Error>> {
+fn run(work: Work, options: &[String]) -> Result<bool, Box<dyn std::error::Error>> {
     let threads = available_parallelism().map_or(1, usize::from);
     let (mut runs, mut seed, mut threads) = (10_000, 1, threads);
     for pair in options.chunks(2) {
@@ -39,7 +41,7 @@ fn run(options: &[String]) -> Result<bool, Box<dyn std::error::Error>> {
         }
     }
     let start = Instant::now();
-    let summary = campaign::run(seed, runs, threads)?;
+    let summary = campaign::run(work, seed, runs, threads)?;
     println!("seed {seed}: {summary}");
     println!("{:.1} s on {threads} threads", start.elapsed().as_secs_f64());
     for failure in summary.failures.iter().take(SHOWN) {
@@ -51,9 +53,9 @@ fn run(options: &[String]) -> Result<bool, Box<dyn std::error::Error>> {
     Ok(summary.failures.is_empty())
 }
 
-fn replay(trial: &str) -> Result<bool, Box<dyn std::error::Error>> {
+fn replay(work: Work, trial: &str) -> Result<bool, Box<dyn std::error::Error>> {
     let (seed, number) = trial.split_once(':').ok_or(USAGE)?;
-    let (trial, rehearsed, breaches) = campaign::replay(seed.parse()?, number.parse()?, true)?;
+    let (trial, rehearsed, breaches) = campaign::replay(work, seed.parse()?, number.parse()?, true)?;
     println!("{:#?}", trial.schedule.steps);
     println!("{:#?}\n{:#?}\n{:#?}", trial.plant, trial.causes, trial.line);
     for line in rehearsed.witness.log() {

@@ -8,6 +8,7 @@
 //! ```
 
 mod board;
+mod calibration;
 pub mod campaign;
 mod cause;
 mod judge;
@@ -22,7 +23,7 @@ mod witness;
 
 pub use board::{BoardError, bench, board, channels, emulated, plant};
 pub use cause::{Cause, Way, What, When};
-pub use judge::{Breach, Excuses, judge, margin_k};
+pub use judge::{Breach, Excuses, judge, judge_calibration, margin_k};
 pub use run::{Ending, Rehearsed, Trial};
 pub use scenario::{Scenario, ScenarioError, Verdict};
 pub use script::Script;

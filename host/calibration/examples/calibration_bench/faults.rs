@@ -71,14 +71,15 @@ pub(crate) fn all(
 fn one(subject: &Subject, bounds: &Bounds, fault: Fault, at_s: f64) -> Result<Verdict, Box<dyn Error>> {
     let session = drive::session(subject, bounds, Some((at_s, fault)))?;
     let fit = fit(&session.record, &subject.nominal)?;
+    let first_s = session.record.drives.first().map_or(f64::INFINITY, |drive| drive.from_s);
     let mut wrong = Vec::new();
     let mut identified = 0;
     for estimate in &fit.estimates {
         let Some(interval) = fit.value(estimate.quantity) else { continue };
         identified += 1;
-        // What is left of a shorted heater is its resistance from then on.
+        // What is left of a heater that was shorted before it was first used is its resistance.
         let truth = match (estimate.quantity, fault) {
-            (Quantity::HeaterResistance, Fault::HeaterShorted { ohm, .. }) if at_s == 0.0 => ohm,
+            (Quantity::HeaterResistance, Fault::HeaterShorted { ohm, .. }) if at_s <= first_s => ohm,
             (quantity, _) => subject.truth(quantity),
         };
         if accepted(estimate.quantity, truth).is_some_and(|most| (interval.value - truth).abs() > most) {

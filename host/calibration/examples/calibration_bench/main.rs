@@ -1,9 +1,11 @@
 //! `cargo xtask bench calibration`: random hinges on the simulated plant, calibrated and held against what they are.
 //!
 //! First sound hinges: how near the values come, and whether the intervals cover. Then the same hinges, each with a fault that
-//! comes at some moment: how often a value is said with confidence that is wrong.
+//! comes at some moment: how often a value is said with confidence that is wrong. With `--drift N` instead: hinges that are opened N times
+//! after their calibration, as they were and changed.
 #![expect(clippy::print_stdout, reason = "a table for people")]
 
+mod drifts;
 mod drive;
 mod faults;
 mod hinges;
@@ -38,6 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut spread, mut broken) = (Spread::Plant, None);
     let mut arguments = std::env::args().skip(1);
     let (mut hinges, mut seed, mut picture, mut verbose) = (200, 1, None, false);
+    let (mut opened, mut first) = (None, 0);
     while let Some(option) = arguments.next() {
         let mut value = || arguments.next().ok_or(format!("{option}: expected a value after it"));
         match option.as_str() {
@@ -45,11 +48,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             "--seed" => seed = value()?.parse()?,
             "--picture" => picture = Some(value()?),
             "--broken" => broken = Some(value()?.parse()?),
+            "--drift" => opened = Some(value()?.parse()?),
+            "--first" => first = value()?.parse()?,
             "--wide" => spread = Spread::Wide,
             "--verbose" => verbose = true,
             _ => {
                 return Err(format!(
-                    "unknown option `{option}`, expected --hinges N, --broken N, --seed S, --wide, --picture FILE or --verbose"
+                    "unknown option `{option}`, expected --hinges N, --first N, --broken N, --drift N, --seed S, --wide, --picture FILE or --verbose"
                 )
                 .into());
             }
@@ -57,7 +62,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let bounds = Bounds::default();
     // Far apart, so that one seed's hinges are not another's.
-    let subject = |number: u64| Subject::new(seed * 1_000_003 + number, spread);
+    let subject = |number: u64| Subject::new(seed * 1_000_003 + first + number, spread);
+    if let Some(runs) = opened {
+        let all: Result<Vec<_>, String> = each(hinges, |number| {
+            table::seen(&subject(number), &bounds, runs, seed + first + number, verbose)
+        })
+        .into_iter()
+        .collect();
+        table::drifts(&all?);
+        return Ok(());
+    }
     let sound: Result<Vec<Outcome>, String> =
         each(hinges, |number| outcome::sound(&subject(number), &bounds).map_err(|error| error.to_string()))
             .into_iter()
@@ -75,7 +89,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let lengths: Vec<f64> = sound.iter().map(|outcome| outcome.length_s).collect();
     let broken: Result<Vec<Vec<faults::Verdict>>, String> = each(broken.unwrap_or(hinges), |number| {
         let length_s = lengths.get(usize::try_from(number).unwrap_or(0)).copied().unwrap_or(100.0);
-        faults::all(&subject(number), &bounds, length_s, seed + number).map_err(|error| error.to_string())
+        faults::all(&subject(number), &bounds, length_s, seed + first + number)
+            .map_err(|error| error.to_string())
     })
     .into_iter()
     .collect();

@@ -1,9 +1,11 @@
 //! The tables.
 
+use crate::drifts::{self, Since};
 use crate::faults::{self, accepted};
+use crate::hinges::Subject;
 use crate::outcome::Outcome;
 use std::collections::BTreeMap;
-use zygote_calibration::{Quantity, Verdict};
+use zygote_calibration::{Bounds, Drift, Quantity, Verdict};
 
 /// Sound hinges, a line for each quantity.
 pub(crate) fn sound(outcomes: &[Outcome]) {
@@ -91,6 +93,47 @@ pub(crate) fn broken(hinges: &[Vec<faults::Verdict>]) {
     println!("| fault | runs | named | without any value | a confident wrong value |\n|---|---|---|---|---|");
     for (name, row) in rows {
         println!("| `{name}` | {} | {} | {} | {} |", row.runs, row.noticed, row.without, row.wrong);
+    }
+}
+
+/// What runs of one hinge say of it, each change `runs` times; nothing where its calibration isn't whole.
+pub(crate) fn seen(
+    subject: &Subject,
+    bounds: &Bounds,
+    runs: u64,
+    seed: u64,
+    verbose: bool,
+) -> Result<Vec<(Since, Drift)>, String> {
+    let text = |error: Box<dyn std::error::Error>| error.to_string();
+    let Some(calibrated) = drifts::calibrate(subject, bounds).map_err(text)? else { return Ok(Vec::new()) };
+    let mut all = Vec::new();
+    for since in Since::ALL {
+        for run in 0..runs {
+            let drift = drifts::opened(subject, &calibrated, since, seed * 1_000 + run).map_err(text)?;
+            if verbose && (since == Since::Nothing) != (drift == Drift::Keep) {
+                println!("{seed} {since:?}: {drift:?}");
+            }
+            all.push((since, drift));
+        }
+    }
+    Ok(all)
+}
+
+/// Hinges after their calibration, a line for each change.
+pub(crate) fn drifts(hinges: &[Vec<(Since, Drift)>]) {
+    println!("| changed since | runs | recalibrate | can't tell | keep |\n|---|---|---|---|---|");
+    for since in Since::ALL {
+        let of: Vec<&Drift> =
+            hinges.iter().flatten().filter(|row| row.0 == since).map(|row| &row.1).collect();
+        let count = |wanted: fn(&Drift) -> bool| of.iter().filter(|drift| wanted(drift)).count();
+        println!(
+            "| {} | {} | {} | {} | {} |",
+            since.name(),
+            of.len(),
+            count(|drift| matches!(drift, Drift::Recalibrate { .. })),
+            count(|drift| matches!(drift, Drift::CannotTell { .. })),
+            count(|drift| matches!(drift, Drift::Keep)),
+        );
     }
 }
 

@@ -28,7 +28,7 @@ impl Shown {
     /// What says how a page is to be served is no good without one.
     pub(super) fn check(&self) -> Result<(), Failure> {
         let Screen { view_port, no_open, pace } = self.screen;
-        let said = [(view_port != 0, "--view-port"), (no_open, "--no-open"), (pace != 1.0, "--pace")];
+        let said = [(view_port != 0, "--view-port"), (no_open, "--no-open"), (pace.is_some(), "--pace")];
         match said.iter().find(|(said, _)| *said && !self.view) {
             Some((_, option)) => Err(Failure::BadInput(anyhow!("{option} needs --view"))),
             None => Ok(()),
@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &Arguments, job: Job, interrupted: &dyn Fn() -> boo
         jobs: &jobs,
         scenes,
         interrupted,
-        pace: screen.pace,
+        pace: screen.pace(),
         only: true,
         at_once: *yes,
         last: None,
@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, job: Job, interrupted: &dyn Fn() -> boo
         attended.until_the_end(&mut Port { line: Some(line) })?;
         return judge(&report_of(attended)?);
     }
-    let line = attended.until_the_end(&mut Simulator { jobs: &jobs, pace: screen.pace })?;
+    let line = attended.until_the_end(&mut Simulator { jobs: &jobs, pace: screen.pace() })?;
     let report = report_of(attended)?;
     let Some(stage) = line.map(RealTime::into_inner) else { return judge(&report) };
     if let Some(path) = &job.scenario {

@@ -30,9 +30,9 @@ pub(crate) struct Screen {
     /// Open no browser
     #[arg(long)]
     pub(crate) no_open: bool,
-    /// On the simulator, so many seconds of the run in a second
-    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = pace, requires = "sim")]
-    pub(crate) pace: f64,
+    /// On the simulator, so many seconds of the run in a second [default: 1]
+    #[arg(long, value_name = "N", value_parser = pace, requires = "sim")]
+    pub(crate) pace: Option<f64>,
 }
 
 fn pace(text: &str) -> Result<f64, String> {
@@ -41,6 +41,11 @@ fn pace(text: &str) -> Result<f64, String> {
 }
 
 impl Screen {
+    /// Seconds of the run in a second.
+    pub(crate) fn pace(&self) -> f64 {
+        self.pace.unwrap_or(1.0)
+    }
+
     /// Serves the page with these scenes on offer, and tells its address.
     pub(crate) fn open(&self, what: &dyn Display, hub: &Arc<Hub>) -> Result<Server, Failure> {
         let listener = view::listen(self.view_port, "--view-port")?;

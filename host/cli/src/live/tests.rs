@@ -59,8 +59,8 @@ fn run(
 ) -> (RunReport, States) {
     let mut states = States::default();
     let mut log = EventLog::new(io::sink()).observed_by(&mut states);
-    let (run, clear, interrupted) = (1, false, &|| false);
-    let deployment = Deployment { schedule, rig, run, open, clear, interrupted, steer: Some(steer) };
+    let (run, clear, any_board, interrupted, steer) = (1, false, false, &|| false, Some(steer));
+    let deployment = Deployment { schedule, rig, run, open, clear, any_board, interrupted, steer };
     let report = deploy(session, &deployment, &mut log, &mut |_| {}).unwrap();
     drop(log);
     (report, states)

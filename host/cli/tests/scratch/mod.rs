@@ -2,8 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its folder fails")]
 
+use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 use std::{env, fs};
 
 /// A folder that is empty at first and gone at the end.
@@ -18,6 +19,27 @@ pub(crate) struct Run {
     pub(crate) errors: String,
 }
 
+/// A command that runs.
+#[allow(dead_code, reason = "not every test serves something")]
+pub(crate) struct Server(Child);
+
+#[allow(dead_code, reason = "not every test serves something")]
+impl Server {
+    /// What it says first, once it says it.
+    pub(crate) fn first_line(&mut self) -> String {
+        let mut line = String::new();
+        BufReader::new(self.0.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        line.trim_end().to_owned()
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.0.kill().ok();
+        self.0.wait().ok();
+    }
+}
+
 impl Scratch {
     pub(crate) fn new(name: &str) -> Self {
         let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -29,6 +51,27 @@ impl Scratch {
     pub(crate) fn zygote(&self, arguments: &[&str]) -> Run {
         let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
         let run = command.args(arguments).current_dir(&self.folder).output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
+    }
+
+    /// A command that goes on until it is dropped.
+    #[allow(dead_code, reason = "not every test serves something")]
+    pub(crate) fn start(&self, arguments: &[&str]) -> Server {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
+        Server(command.args(arguments).current_dir(&self.folder).stdout(Stdio::piped()).spawn().unwrap())
+    }
+
+    /// The command with something on its standard input, which then ends.
+    #[allow(dead_code, reason = "not every test tells it something")]
+    pub(crate) fn zygote_told(&self, arguments: &[&str], input: &str) -> Run {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
+        command.args(arguments).current_dir(&self.folder);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // It may have ended without reading all of it.
+        child.stdin.take().unwrap().write_all(input.as_bytes()).ok();
+        let run = child.wait_with_output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }

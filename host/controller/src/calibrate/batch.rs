@@ -8,7 +8,10 @@ use crate::inbox::Notice;
 use crate::session::{RequestError, Session};
 use std::collections::BTreeMap;
 use zygote_calibration::{Drive, Pulse, Sample};
-use zygote_protocol::{Event, EventKind, Fault, State};
+use zygote_protocol::{Event, EventKind, Fault, Micros, State};
+
+/// Is told every look: when, at what hinges, and what was seen.
+pub(crate) type Seen<'a> = dyn FnMut(Micros, &[Hinge], &BTreeMap<u16, Look>) + 'a;
 
 /// How watching ended.
 pub(crate) enum End {
@@ -85,6 +88,7 @@ impl Batch {
         sampler: &mut Sampler,
         hinges: &mut [Hinge],
         interrupted: &dyn Fn() -> bool,
+        seen: &mut Seen<'_>,
     ) -> Result<End, RequestError> {
         let channels: Vec<u16> =
             self.members.iter().filter_map(|(at, _)| hinges.get(*at)).map(|hinge| hinge.channel).collect();
@@ -105,6 +109,7 @@ impl Batch {
             }
             let looks = sampler.look(session, &channels)?;
             self.sample(&looks, hinges);
+            seen(session.now(), hinges, &looks);
             if !running && self.members.iter().all(|(_, course)| course.rested) {
                 return Ok(End::Rested);
             }

@@ -44,15 +44,6 @@ pub struct Hinge {
 impl Hinge {
     /// A hinge of a rig, at a board with these ceilings.
     pub fn new(number: usize, channel: u16, settings: SmaSettings, ceiling: &Limits) -> Self {
-        let (as_c, af_c) = (settings.austenite_start.0, settings.austenite_finish.0);
-        let ms_c = as_c - HYSTERESIS_K;
-        let nominal = Nominal {
-            transformation: Transformation { mf_c: ms_c - MARTENSITE_SPAN_K, ms_c, as_c, af_c },
-            heater_ohm: settings.heater_resistance.0,
-            thermal_resistance_k_per_w: settings.thermal_resistance.0,
-            time_constant_s: settings.time_constant.0,
-            ..Nominal::default()
-        };
         let bounds = Bounds {
             max_temperature_c: settings.max_temperature.0.min(f64::from(ceiling.max_temperature.0) / 100.0),
             max_on_s: settings.max_on.0.min(f64::from(ceiling.max_on.0) / 1e3),
@@ -64,7 +55,7 @@ impl Hinge {
             record: Record::default(),
             ending: None,
             settings,
-            nominal,
+            nominal: nominal(&settings),
             bounds,
             wish: None,
             kept: (0, 0),
@@ -128,6 +119,19 @@ impl Hinge {
     /// A record that contradicts itself.
     pub fn fit(&self) -> Result<Fit, RecordError> {
         fit(&self.record, &self.nominal)
+    }
+}
+
+/// What a rig file says of a hinge.
+pub(crate) fn nominal(settings: &SmaSettings) -> Nominal {
+    let (as_c, af_c) = (settings.austenite_start.0, settings.austenite_finish.0);
+    let ms_c = as_c - HYSTERESIS_K;
+    Nominal {
+        transformation: Transformation { mf_c: ms_c - MARTENSITE_SPAN_K, ms_c, as_c, af_c },
+        heater_ohm: settings.heater_resistance.0,
+        thermal_resistance_k_per_w: settings.thermal_resistance.0,
+        time_constant_s: settings.time_constant.0,
+        ..Nominal::default()
     }
 }
 

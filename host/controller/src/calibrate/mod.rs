@@ -11,12 +11,15 @@
 
 mod batch;
 mod hinge;
+mod progress;
 mod pulse_step;
 mod records;
 mod sampler;
 mod thermistors;
 
+pub(crate) use hinge::nominal;
 pub use hinge::{Ending, Hinge};
+pub use progress::{Progress, Running};
 pub use records::{Measured, RecordsError, chip_id};
 pub use thermistors::ThermistorError;
 
@@ -28,7 +31,7 @@ use sampler::{Look, Sampler};
 use std::collections::BTreeMap;
 use zygote_calibration::{Next, Pulse, Purpose, Sample};
 use zygote_deployment::Rig;
-use zygote_protocol::{Command, Fault, Limits, Millis, RigId};
+use zygote_protocol::{Command, Fault, Limits, Micros, Millis, RigId};
 
 /// The thermistors are looked at for so long before anything else.
 const FIRST_LOOK: u32 = 20;
@@ -87,17 +90,6 @@ pub struct Calibration<'a> {
     pub interrupted: &'a dyn Fn() -> bool,
 }
 
-/// How far a calibration is, for a display.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Progress {
-    /// Hinges that have ended.
-    pub ended: usize,
-    /// All hinges.
-    pub total: usize,
-    /// What is done now.
-    pub doing: String,
-}
-
 /// Measures until every hinge has ended; how, stands with it.
 ///
 /// # Errors
@@ -128,6 +120,20 @@ fn is_alone(pulse: &Pulse) -> bool {
     match pulse.purpose {
         Purpose::Probe | Purpose::HeldOut => true,
         Purpose::Warm | Purpose::Ramp | Purpose::Again => false,
+    }
+}
+
+/// As strict as the rig allows.
+pub(crate) fn limits(rig: &Rig, ceiling: Limits) -> Limits {
+    let whole = |value: f64, most: u32| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
+        let whole = value.round() as u32;
+        whole.min(most)
+    };
+    Limits {
+        supply: zygote_protocol::Milliamps(whole(rig.supply.limit.0 * 1e3, ceiling.supply.0)),
+        link_timeout: Millis(whole(rig.link.timeout.0 * 1e3, ceiling.link_timeout.0)),
+        ..ceiling
     }
 }
 
@@ -202,8 +208,7 @@ impl<T: Transport> Bench<'_, T> {
             let next = [probes, beside, alone].into_iter().find(|pulses| !pulses.is_empty());
             let next = next.unwrap_or_default();
             let together = next.get(..room.min(next.len())).unwrap_or_default();
-            show(&self.progress(self.describe(together)));
-            self.pulse(together)?;
+            self.pulse(together, show)?;
         }
     }
 
@@ -260,7 +265,11 @@ impl<T: Transport> Bench<'_, T> {
     }
 
     /// Drives pulses side by side.
-    fn pulse(&mut self, pulses: &[(usize, Pulse)]) -> Result<(), CalibrateError> {
+    fn pulse(
+        &mut self,
+        pulses: &[(usize, Pulse)],
+        show: &mut dyn FnMut(&Progress),
+    ) -> Result<(), CalibrateError> {
         let rig = self.calibration.rig;
         let supply_v = rig.supply.voltage.0;
         let steps: Vec<_> = pulses
@@ -282,9 +291,22 @@ impl<T: Transport> Bench<'_, T> {
         let id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
         self.run = self.run.wrapping_add(1);
         upload(self.session, self.run, &id, &steps)?;
-        start(self.session, self.run, id, self.limits())?;
+        start(self.session, self.run, id, limits(rig, self.session.info().ceiling))?;
         let mut batch = Batch::new(pulses);
-        let end = batch.watch(self.session, &mut self.sampler, self.hinges, self.calibration.interrupted);
+        let progress = self.progress(progress::describe(self.hinges, pulses));
+        let begun = self.session.now();
+        let mut seen = |now: Micros, hinges: &[Hinge], looks: &BTreeMap<u16, Look>| {
+            let left_s = (progress.left_s - sampler::seconds(Micros(now.since(begun)))).max(1.0);
+            let running = progress::running(hinges, pulses, looks);
+            show(&Progress { running, left_s, ..progress.clone() });
+        };
+        let end = batch.watch(
+            self.session,
+            &mut self.sampler,
+            self.hinges,
+            self.calibration.interrupted,
+            &mut seen,
+        );
         for at in batch.rested() {
             if let Some(hinge) = self.hinges.get_mut(at) {
                 hinge.keep();
@@ -336,24 +358,6 @@ impl<T: Transport> Bench<'_, T> {
         }
     }
 
-    /// As strict as the pulses allow.
-    fn limits(&self) -> Limits {
-        let ceiling = self.session.info().ceiling;
-        let whole = |value: f64, most: u32| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
-            let whole = value.round() as u32;
-            whole.min(most)
-        };
-        Limits {
-            supply: zygote_protocol::Milliamps(whole(
-                self.calibration.rig.supply.limit.0 * 1e3,
-                ceiling.supply.0,
-            )),
-            link_timeout: Millis(whole(self.calibration.rig.link.timeout.0 * 1e3, ceiling.link_timeout.0)),
-            ..ceiling
-        }
-    }
-
     /// The next sample of these channels; nothing is energised, so a fault is none of this calibration's doing.
     fn look(&mut self, channels: &[u16]) -> Result<BTreeMap<u16, Look>, CalibrateError> {
         if (self.calibration.interrupted)() {
@@ -373,20 +377,22 @@ impl<T: Transport> Bench<'_, T> {
 
     fn progress(&self, doing: String) -> Progress {
         let ended = self.hinges.iter().filter(|hinge| hinge.ending.is_some()).count();
-        Progress { ended, total: self.hinges.len(), doing }
+        let left_s = progress::left_s(self.hinges, self.at_once());
+        Progress { ended, total: self.hinges.len(), doing, running: Vec::new(), left_s }
     }
 
-    fn describe(&self, pulses: &[(usize, Pulse)]) -> String {
-        match pulses {
-            [(at, pulse)] => {
-                let number = self.hinges.get(*at).map_or(0, |hinge| hinge.number);
-                format!(
-                    "hinge {number}: {}, {:.1} % power",
-                    records::name_of(pulse.purpose),
-                    pulse.duty * 100.0
-                )
-            }
-            _ => format!("{} hinges pulsed", pulses.len()),
-        }
+    /// How many heaters the supply carries, each with all its power: that is how the MCU counts them.
+    fn at_once(&self) -> usize {
+        let supply = &self.calibration.rig.supply;
+        let heater_a =
+            |hinge: &Hinge| pulse_step::CURRENT_MARGIN * supply.voltage.0 / hinge.nominal.heater_ohm;
+        let most_a = self.hinges.iter().map(heater_a).fold(f64::MIN_POSITIVE, f64::max);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "some tens; it saturates"
+        )]
+        let at_once = (supply.limit.0 / most_a).floor().max(1.0) as usize;
+        at_once
     }
 }

@@ -13,7 +13,7 @@ const GAIN_SHARE: f64 = 0.08;
 /// A pulse that ends below the rig's `cool_to` counts as cooled so far below its end.
 const COOLED_K: f64 = 5.0;
 /// A measured resistance may be off by so much, and the supply may be above what it says.
-const CURRENT_MARGIN: f64 = 1.1;
+pub(crate) const CURRENT_MARGIN: f64 = 1.1;
 
 /// The step of a hinge's pulse. `supply_v` is the supply without load, `heater_ohm` the best that is known of the heater.
 pub(crate) fn step(hinge: &Hinge, pulse: &Pulse, supply_v: f64, heater_ohm: f64) -> Step {

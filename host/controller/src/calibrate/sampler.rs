@@ -104,7 +104,7 @@ impl Sampler {
     }
 }
 
-fn seconds(at: Micros) -> f64 {
+pub(crate) fn seconds(at: Micros) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "exact for 285 years")]
     let micros = at.0 as f64;
     micros / 1e6

@@ -11,11 +11,12 @@ mod places;
 mod quantity;
 mod rating;
 mod rules;
+mod servo_curve;
 mod settings;
 mod sim;
 mod weight;
 
-pub use calibrated::CalibratedError;
+pub use calibrated::{CalibratedError, HeaterExpectation};
 pub use error::RigError;
 pub use fit::Fitting;
 pub use places::Place;
@@ -25,10 +26,12 @@ pub use quantity::{
     WattsPerSquareMetreKelvin,
 };
 pub use rating::{MOST_POINTS, Rating};
+pub use servo_curve::{SERVO_ANGLES, ServoCurve};
 pub use settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
-pub use sim::{Sim, SmaPlant};
+pub use sim::{ServoPlant, Sim, SmaPlant, TruePulse};
 pub use weight::{Gravity, Weight};
 
+use crate::calibration::Calibration;
 use file::RigFile;
 use places::{Places, line_of};
 use toml::de::{DeTable, DeValue};
@@ -45,6 +48,8 @@ pub struct Rig {
     pub ambient: Celsius,
     /// The calibration file of its hinges, as the rig file names it; see [`Rig::calibrated`].
     pub calibration: Option<String>,
+    /// What that file says, once it was taken in.
+    pub calibrated_by: Option<Calibration>,
     /// What powers the actuators.
     pub supply: Supply,
     /// How host and MCU talk.
@@ -177,6 +182,7 @@ impl Rig {
             id: file.rig.id,
             ambient: file.rig.ambient,
             calibration: file.rig.calibration,
+            calibrated_by: None,
             supply: Supply {
                 voltage: file.supply.voltage,
                 limit: file.supply.limit,

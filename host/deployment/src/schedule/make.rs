@@ -5,6 +5,7 @@ use super::problem::{Problem, Task};
 use super::search::{self, Found};
 use super::waiting::{self, Gathering, Waiting};
 use super::{Fingerprint, Milliamps, Millis, Schedule, Step, VERSION, greedy, lower_bound};
+use crate::calibration::Calibration;
 use crate::order::Order;
 use crate::rig::{Fitting, Kind, Rig, RigError};
 use crate::tree::{Tree, TreeError};
@@ -94,8 +95,9 @@ impl Schedule {
             .hinges
             .iter()
             .zip(&fittings)
-            .map(|(hinge, fitting)| Cost::new(rig, hinge, &fitting.drive))
-            .collect();
+            .enumerate()
+            .map(|(number, (hinge, fitting))| Cost::new(rig, number, hinge, &fitting.drive))
+            .collect::<Result<_, _>>()?;
         let tasks =
             order.hinges.iter().map(|hinge| task(&costs[*hinge], &fittings[*hinge], limits)).collect();
         let limit = Milliamps::at_most(rig.supply.limit);
@@ -137,6 +139,7 @@ impl Schedule {
         Ok(Self {
             version: VERSION,
             rig: rig.id.clone(),
+            calibrated_at: rig.calibrated_by.as_ref().map(Calibration::at),
             plan_crc64: Fingerprint::of(plan),
             order_crc64: Fingerprint::of_order(&steps),
             certificate: None,

@@ -37,6 +37,7 @@ pub use reversed::{Direction, ReverseError};
 pub use units::{CentiCelsius, Micros, Milliamps, Millis};
 pub use verify::VerifyError;
 
+use crate::calibration::CalibratedAt;
 use crate::motion::Certificate;
 use crate::statics::Loads;
 use serde::{Deserialize, Serialize};
@@ -54,6 +55,9 @@ pub struct Schedule {
     version: u32,
     /// The rig that it was made for.
     pub rig: String,
+    /// The board at which the rig's hinges were calibrated; without it none was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub calibrated_at: Option<CalibratedAt>,
     /// The plan that it was made for.
     pub plan_crc64: Fingerprint,
     /// Of what its steps move and wait for.

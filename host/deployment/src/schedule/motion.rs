@@ -2,7 +2,7 @@
 
 use super::units::{CentiCelsius, Micros, Milliamps, Millis};
 use crate::heating;
-use crate::rig::{Drive, Kind, Rig, Seconds, ServoSettings, SmaSettings, SpringSettings};
+use crate::rig::{Degrees, Drive, Kind, Rig, RigError, Seconds, ServoSettings, SmaSettings, SpringSettings};
 use serde::{Deserialize, Serialize};
 use zygote_stacking::{Hinge, HingeKind};
 
@@ -101,6 +101,52 @@ impl Motion {
     }
 }
 
+impl Motion {
+    /// What of it isn't as expected, in words.
+    pub(crate) fn differences(&self, expected: &Self) -> String {
+        match (self, expected) {
+            (Self::Sma(found), Self::Sma(expected)) => told(&[
+                ("target", celsius(expected.target), celsius(found.target)),
+                ("hold", expected.hold.to_string(), found.hold.to_string()),
+                ("longest on-time", expected.max_on.to_string(), found.max_on.to_string()),
+                ("highest temperature", celsius(expected.max_temperature), celsius(found.max_temperature)),
+                ("cooled temperature", celsius(expected.cool_to), celsius(found.cool_to)),
+                ("rest", expected.rest.to_string(), found.rest.to_string()),
+                ("least gain", kelvins(expected.min_gain), kelvins(found.min_gain)),
+                ("gain window", expected.gain_window.to_string(), found.gain_window.to_string()),
+            ]),
+            (Self::Servo(found), Self::Servo(expected)) => told(&[
+                ("first pulse", expected.from.to_string(), found.from.to_string()),
+                ("last pulse", expected.to.to_string(), found.to.to_string()),
+                ("time of the move", expected.duration.to_string(), found.duration.to_string()),
+                ("settling time", expected.settle.to_string(), found.settle.to_string()),
+            ]),
+            (Self::Spring(found), Self::Spring(expected)) => told(&[
+                ("pulse", expected.pulse.to_string(), found.pulse.to_string()),
+                ("settling time", expected.settle.to_string(), found.settle.to_string()),
+            ]),
+            (Self::Sma(_) | Self::Servo(_) | Self::Spring(_), _) => {
+                format!("it should be a {} hinge, found a {}", expected.kind().name(), self.kind().name())
+            }
+        }
+    }
+}
+
+fn celsius(temperature: CentiCelsius) -> String {
+    format!("{:.2} °C", f64::from(temperature.0) / 100.0)
+}
+
+fn kelvins(difference: CentiCelsius) -> String {
+    format!("{:.2} K", f64::from(difference.0) / 100.0)
+}
+
+/// Of names with what is expected and what was found, those that differ.
+fn told(rows: &[(&str, String, String)]) -> String {
+    let differ = rows.iter().filter(|(_, expected, found)| expected != found);
+    let words = differ.map(|(name, expected, found)| format!("{name} should be {expected}, found {found}"));
+    words.collect::<Vec<_>>().join(", ")
+}
+
 /// Opening angle of a hinge in the zygote, degrees: a fold is closed, a bridge is flat.
 pub(crate) const fn start_opening_deg(hinge: &Hinge) -> u16 {
     match hinge.kind {
@@ -110,12 +156,15 @@ pub(crate) const fn start_opening_deg(hinge: &Hinge) -> u16 {
 }
 
 impl Cost {
-    /// What moving `hinge` with `drive` takes.
-    pub(crate) fn new(rig: &Rig, hinge: &Hinge, drive: &Drive) -> Self {
+    /// What moving `hinge`, which has this number, with `drive` takes.
+    ///
+    /// # Errors
+    /// [`RigError`] for a servo that doesn't reach the hinge's angles.
+    pub(crate) fn new(rig: &Rig, number: usize, hinge: &Hinge, drive: &Drive) -> Result<Self, RigError> {
         match drive {
-            Drive::Sma(sma) => Self::sma(rig, sma),
-            Drive::Servo(servo) => Self::servo(hinge, servo),
-            Drive::Spring(spring) => Self::spring(spring),
+            Drive::Sma(sma) => Ok(Self::sma(rig, sma)),
+            Drive::Servo(servo) => Self::servo(rig, number, hinge, servo),
+            Drive::Spring(spring) => Ok(Self::spring(spring)),
         }
     }
 
@@ -138,24 +187,21 @@ impl Cost {
         }
     }
 
-    fn servo(hinge: &Hinge, servo: &ServoSettings) -> Self {
+    fn servo(rig: &Rig, number: usize, hinge: &Hinge, servo: &ServoSettings) -> Result<Self, RigError> {
         let (from, to) = (f64::from(start_opening_deg(hinge)), f64::from(hinge.opening_deg));
-        let pulse = |deg: f64| {
-            let share = deg / 270.0;
-            Micros::nearest(Seconds(servo.pulse_0.0 + share * (servo.pulse_270.0 - servo.pulse_0.0)))
-        };
+        let pulse = |deg: f64| Ok::<_, RigError>(Micros::nearest(rig.pulse(number, servo, Degrees(deg))?));
         let motion = ServoMotion {
-            from: pulse(from),
-            to: pulse(to),
+            from: pulse(from)?,
+            to: pulse(to)?,
             duration: Millis::at_least(Seconds((to - from).abs() / servo.speed.0)),
             settle: Millis::at_least(servo.settle),
         };
-        Self {
+        Ok(Self {
             motion: Motion::Servo(motion),
             duration: motion.duration + motion.settle,
             current: Milliamps::at_least(servo.current),
             hold_current: Milliamps::at_least(servo.hold_current),
-        }
+        })
     }
 
     /// The current counts for the settling too: a little unused supply is cheaper than a second figure a step.

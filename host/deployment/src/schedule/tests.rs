@@ -166,7 +166,7 @@ fn every_change_by_hand_is_found() {
     let rig = rig("[[hinge]]\nhinge = 3\nkind = \"servo\"\n");
     let good = planned(&plan, &rig, 2).expect("a schedule");
     good.verify(&plan, &rig).expect("a good schedule");
-    let changes: [(&str, Change); 17] = [
+    let changes: [(&str, Change); 19] = [
         ("belongs to the rig", |s| s.rig.push('2')),
         ("supply_limit_ma", |s| s.supply_limit = Milliamps(9000)),
         ("number of steps", |s| drop(s.steps.pop())),
@@ -180,7 +180,17 @@ fn every_change_by_hand_is_found() {
         ("order_crc64 should be", |s| s.order_crc64.0 += 1),
         ("lower_bound_ms should be at most", |s| s.lower_bound.0 = s.makespan.0 + 1),
         ("channel should be", |s| s.steps[0].channel = 7),
-        ("motion should be", |s| s.steps[0].motion = s.steps[3].motion),
+        ("it should be a", |s| s.steps[0].motion = s.steps[3].motion),
+        ("first pulse should be", |s| {
+            let motion = s.steps.iter_mut().find_map(|step| match &mut step.motion {
+                Motion::Servo(servo) => Some(servo),
+                Motion::Sma(_) | Motion::Spring(_) => None,
+            });
+            motion.unwrap().from.0 += 1;
+        }),
+        ("made by a calibration at board b 00, the rig is now driven without a calibration", |s| {
+            s.calibrated_at = Some(CalibratedAt { board: "b".to_owned(), unique_id: "00".to_owned() });
+        }),
         ("current_ma should be", |s| s.steps[0].current = Milliamps(1)),
         ("peak_current_ma should be", |s| s.peak_current.0 -= 1),
         ("makespan_ms should be", |s| s.makespan.0 += 1),

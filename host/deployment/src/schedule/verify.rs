@@ -3,6 +3,7 @@
 
 use super::motion::{Cost, start_opening_deg};
 use super::{Fingerprint, MOST_AFTER, Milliamps, Millis, Schedule};
+use crate::calibration::{CalibratedAt, Calibration};
 use crate::rig::{Kind, Rig, RigError};
 use crate::statics::{Loads, Statics};
 use crate::tree::{Tree, TreeError};
@@ -30,6 +31,16 @@ pub enum VerifyError {
         /// Id in the schedule.
         schedule: String,
         /// Id in the rig file.
+        rig: String,
+    },
+    /// Made with another calibration.
+    #[error(
+        "schedule: it was made {schedule}, the rig is now driven {rig}; make it anew with `zygote schedule`"
+    )]
+    OtherCalibration {
+        /// What the schedule says.
+        schedule: String,
+        /// What the rig says.
         rig: String,
     },
     /// The rig can't drive the plan.
@@ -61,6 +72,19 @@ pub enum VerifyError {
         expected: String,
         /// What the schedule says.
         found: String,
+    },
+    /// A motion isn't what the rig says.
+    #[error(
+        "schedule: step {step} (hinge {hinge}): {differences}: the rig file or its calibration has changed since; make it anew with \
+         `zygote schedule`"
+    )]
+    Motion {
+        /// Index of the step.
+        step: usize,
+        /// Its hinge.
+        hinge: usize,
+        /// What should be what, in words.
+        differences: String,
     },
     /// More current than the supply gives.
     #[error("schedule: at {time} the motions draw {drawn}, expected at most the supply limit of {limit}")]
@@ -98,6 +122,12 @@ impl Schedule {
         }
         if self.rig != rig.id {
             return Err(VerifyError::OtherRig { schedule: self.rig.clone(), rig: rig.id.clone() });
+        }
+        let calibrated_at = rig.calibrated_by.as_ref().map(Calibration::at);
+        if self.calibrated_at != calibrated_at {
+            let (schedule, rig) =
+                (by_calibration(self.calibrated_at.as_ref()), by_calibration(calibrated_at.as_ref()));
+            return Err(VerifyError::OtherCalibration { schedule, rig });
         }
         let limit = Milliamps::at_most(rig.supply.limit);
         whole("supply_limit_ma", limit, self.supply_limit)?;
@@ -211,12 +241,15 @@ impl Schedule {
         let mut users: BTreeMap<(usize, Kind, u16), usize> = BTreeMap::new();
         for (index, step) in self.steps.iter().enumerate() {
             let (hinge, fitting) = (&plan.hinges[step.hinge], &fittings[step.hinge]);
-            let cost = Cost::new(rig, hinge, &fitting.drive);
+            let cost = Cost::new(rig, step.hinge, hinge, &fitting.drive)?;
             let same = |key, expected: String, found: String| {
                 if expected == found { Ok(()) } else { Err(self.refuse(index, key, expected, found)) }
             };
             same("node", fitting.node.to_string(), step.node.to_string())?;
-            same("motion", format!("{:?}", cost.motion), format!("{:?}", step.motion))?;
+            if cost.motion != step.motion {
+                let differences = step.motion.differences(&cost.motion);
+                return Err(VerifyError::Motion { step: index, hinge: step.hinge, differences });
+            }
             same("channel", fitting.channel.to_string(), step.channel.to_string())?;
             same(
                 "from_opening_deg",
@@ -306,6 +339,10 @@ impl Schedule {
         }
         Ok(())
     }
+}
+
+fn by_calibration(at: Option<&CalibratedAt>) -> String {
+    at.map_or_else(|| "without a calibration".to_owned(), |at| format!("by a calibration at board {at}"))
 }
 
 fn whole<T: PartialEq + ToString + Copy>(

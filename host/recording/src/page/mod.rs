@@ -2,6 +2,7 @@
 
 mod axis;
 mod curves;
+mod drift;
 mod gantt;
 mod hinges;
 mod plot;
@@ -36,6 +37,7 @@ pub fn page(recording: &Recording) -> String {
     gantt::section(&mut page, &run);
     curves::sections(&mut page, &run);
     hinges::section(&mut page, &run);
+    drift::section(&mut page, &run);
     events(&mut page, &run);
     page.add(format_args!(
         "<footer>Recorded by {}. Times are seconds of the run by the MCU's clock.</footer>\n</main></body></html>\n",

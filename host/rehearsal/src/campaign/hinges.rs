@@ -46,6 +46,11 @@ pub(super) fn any(chance: &mut Chance, supply: &SupplyConfig, ambient_c: f64) ->
     }
 }
 
+/// Any hinge of shape-memory alloy.
+pub(super) fn heated(chance: &mut Chance, supply: &SupplyConfig, ambient_c: f64) -> Specimen {
+    sma(chance, supply, ambient_c, 180)
+}
+
 fn sma(chance: &mut Chance, supply: &SupplyConfig, ambient_c: f64, opening_deg: u16) -> Specimen {
     const TRIES: usize = 50;
     let opening = f64::from(opening_deg);

@@ -10,7 +10,7 @@ pub use summary::{Failure, Summary};
 pub use trials::{TrialError, trial};
 
 use crate::board::BoardError;
-use crate::judge::{Breach, judge};
+use crate::judge::{Breach, judge, judge_calibration};
 use crate::run::{Ending, Rehearsed, Trial};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
@@ -27,11 +27,32 @@ pub enum CampaignError {
     Board(#[from] BoardError),
 }
 
+/// What the host of a campaign does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Work {
+    /// It opens all hinges.
+    Deploy,
+    /// It measures the shape-memory hinges.
+    Calibrate,
+}
+
 /// Runs and judges one trial; with a log if that is asked for.
 ///
 /// # Errors
 /// [`CampaignError`].
-pub fn replay(seed: u64, number: u64, log: bool) -> Result<(Trial, Rehearsed, Vec<Breach>), CampaignError> {
+pub fn replay(
+    work: Work,
+    seed: u64,
+    number: u64,
+    log: bool,
+) -> Result<(Trial, Rehearsed, Vec<Breach>), CampaignError> {
+    if work == Work::Calibrate {
+        let trial = Trial { log, ..trials::calibrated(seed, number)? };
+        let rehearsed = trial.calibrate()?;
+        let mut breaches = judge_calibration(&trial, &rehearsed);
+        breaches.extend(unmeasured(&trial, &rehearsed));
+        return Ok((trial, rehearsed, breaches));
+    }
     let trial = Trial { log, ..trial(seed, number)? };
     let rehearsed = trial.run()?;
     let mut breaches = judge(&trial, &rehearsed);
@@ -51,25 +72,37 @@ fn undisturbed(trial: &Trial, rehearsed: &Rehearsed) -> Option<Breach> {
     })
 }
 
+/// Where nothing goes wrong, every hinge is measured to the end.
+fn unmeasured(trial: &Trial, rehearsed: &Rehearsed) -> Option<Breach> {
+    let alone = trial.line.is_empty() && rehearsed.script.happened().next().is_none();
+    let measured = matches!(rehearsed.ending, Ending::Measured { done, of } if done == of);
+    (alone && !measured).then(|| Breach {
+        rule: "S12",
+        at: rehearsed.ended_at,
+        heater: None,
+        what: format!("nothing went wrong, and yet {:?}, {:?}", rehearsed.ending, rehearsed.witness.faults),
+    })
+}
+
 /// Runs the trials 0 to `runs` of a seed on some threads.
 ///
 /// # Errors
 /// [`CampaignError`] of the first trial, by number, that can't be made or run.
-pub fn run(seed: u64, runs: u64, threads: usize) -> Result<Summary, CampaignError> {
+pub fn run(work: Work, seed: u64, runs: u64, threads: usize) -> Result<Summary, CampaignError> {
     let next = AtomicU64::new(0);
-    let work = || {
+    let worker = || {
         let mut summary = Summary::default();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             if number >= runs {
                 return Ok(summary);
             }
-            let (trial, rehearsed, breaches) = replay(seed, number, false)?;
+            let (trial, rehearsed, breaches) = replay(work, seed, number, false)?;
             summary.add(number, &trial, &rehearsed, breaches);
         }
     };
     let results: Vec<Result<Summary, CampaignError>> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads.max(1)).map(|_| scope.spawn(work)).collect();
+        let workers: Vec<_> = (0..threads.max(1)).map(|_| scope.spawn(worker)).collect();
         workers
             .into_iter()
             .map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))

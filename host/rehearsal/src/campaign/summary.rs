@@ -65,6 +65,8 @@ impl Summary {
                 Outcome::Fault(_) => "fault",
                 Outcome::Lost(_) => "lost",
             },
+            Ending::Measured { done, of } if done == of => "calibrated",
+            Ending::Measured { .. } => "calibrated in part",
             Ending::Refused(_) => "refused",
             Ending::Killed => "killed",
         };

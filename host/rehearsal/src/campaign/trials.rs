@@ -1,11 +1,11 @@
 //! Random trials: a small rig, a program in a random tree order, and what goes wrong with them.
 
-use super::hinges::{Physics, Specimen, any};
+use super::hinges::{Physics, Specimen, any, heated};
 use super::mishaps;
 use crate::run::Trial;
 use serde_json::{Value, json};
 use std::fmt::Write;
-use zygote_deployment::{ReadError, Rig, RigError, Schedule};
+use zygote_deployment::{CentiCelsius, Motion, ReadError, Rig, RigError, Schedule};
 use zygote_protocol::Millis;
 use zygote_sim::Chance;
 use zygote_sim::plant::{Config, SupplyConfig};
@@ -14,6 +14,12 @@ use zygote_sim::plant::{Config, SupplyConfig};
 const MOST_HINGES: usize = 8;
 /// The host must have ended by then: all hinges one after the other, and some.
 const MOST: Millis = Millis(600_000);
+/// A calibration takes minutes, and more where pulses that were cut short are driven again.
+const MOST_MEASURING: Millis = Millis(3_600_000);
+/// An undisturbed one takes longer than this, ms.
+const MEASURING_MS: usize = 150_000;
+/// Most hinges of a rig that is calibrated.
+const MOST_MEASURED: usize = 3;
 const AFTERWARDS: Millis = Millis(2_000);
 
 /// A trial that the generator of trials made wrong.
@@ -50,6 +56,59 @@ pub fn trial(seed: u64, number: u64) -> Result<Trial, TrialError> {
     let line = mishaps::line(&mut chance);
     let seed = chance.bits();
     Ok(Trial { rig, schedule, plant, causes, line, seed, most: MOST, afterwards: AFTERWARDS, log: false })
+}
+
+/// The trial of a number in which the host calibrates. Its hinges are of shape-memory alloy, of whose limits the rig file tells what a careful
+/// person would write there; the schedule is what the witness goes by, and isn't run.
+///
+/// # Errors
+/// [`TrialError`], a fault of this program.
+pub(super) fn calibrated(seed: u64, number: u64) -> Result<Trial, TrialError> {
+    let mut chance = Chance::new(Chance::new(!seed).bits() ^ number);
+    let supply = SupplyConfig {
+        open_circuit_v: chance.between(4.8, 5.5),
+        source_ohm: chance.between(0.02, 0.08),
+        ..SupplyConfig::default()
+    };
+    let ambient_c = chance.between(15.0, 30.0);
+    let count = 1 + chance.below(MOST_MEASURED);
+    let hinges: Vec<Specimen> = (0..count).map(|_| heated(&mut chance, &supply, ambient_c)).collect();
+    let limit_ma = supply_limit_ma(&mut chance, &hinges);
+    let mut text = rig_text(&mut chance, &hinges, &supply, ambient_c, limit_ma);
+    let schedule = Schedule::from_json(&schedule_json(&mut chance, &hinges, limit_ma))?;
+    for step in &schedule.steps {
+        if let Motion::Sma(sma) = step.motion {
+            let celsius = |centi: CentiCelsius| f64::from(centi.0) / 100.0;
+            let (target_c, most_c) = (celsius(sma.target), celsius(sma.max_temperature));
+            // A string takes all.
+            let entry = format!("hinge = {}\nkind = \"sma\"\n", step.hinge);
+            let own = format!(
+                "{entry}sma = {{ target = \"{target_c:.2} degC\", max_temperature = \"{most_c:.2} degC\" }}\n"
+            );
+            text = text.replace(&entry, &own);
+        }
+    }
+    let rig = Rig::read("campaign", &text)?;
+    let plant = plant(&hinges, supply, ambient_c, chance.bits());
+    let mut causes = mishaps::causes(&mut chance, &schedule, &plant);
+    // Any pulse may be struck, not the probes alone.
+    let later = Millis(u32::try_from(chance.below(MEASURING_MS)).unwrap_or(0));
+    for cause in &mut causes {
+        cause.after.0 += later.0;
+    }
+    let line = mishaps::line(&mut chance);
+    let seed = chance.bits();
+    Ok(Trial {
+        rig,
+        schedule,
+        plant,
+        causes,
+        line,
+        seed,
+        most: MOST_MEASURING,
+        afterwards: AFTERWARDS,
+        log: false,
+    })
 }
 
 /// At least what any one hinge draws while all servos hold; at most what all draw together.

@@ -13,7 +13,7 @@ pub(super) fn judge(rehearsed: &Rehearsed, excuses: &Excuses) -> Vec<Breach> {
     }
     match &rehearsed.ending {
         Ending::Report(report) => breaches.extend(account(rehearsed, report, excuses)),
-        Ending::Refused(_) | Ending::Killed => {}
+        Ending::Measured { .. } | Ending::Refused(_) | Ending::Killed => {}
     }
     breaches
 }

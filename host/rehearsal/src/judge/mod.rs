@@ -63,6 +63,16 @@ pub fn judge(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
     breaches
 }
 
+/// What holds in a calibration: it arms and starts many times, and opens its hinges in any order, but S2 to S5, S7 and S8 are the same.
+pub fn judge_calibration(trial: &Trial, rehearsed: &Rehearsed) -> Vec<Breach> {
+    let mut breaches = off::judge(rehearsed);
+    breaches.extend(heat::judge(trial, rehearsed));
+    if rehearsed.overran {
+        breaches.push(Breach::new("end", rehearsed.ended_at, "the host didn't end".to_owned()));
+    }
+    breaches
+}
+
 #[expect(clippy::cast_precision_loss, reason = "a rehearsal is far shorter than 2^52 us")]
 pub(crate) fn seconds(time: Micros) -> f64 {
     time.0 as f64 / 1e6

@@ -171,6 +171,7 @@ fn outcome(expect: &ExpectTable, rehearsed: &Rehearsed) -> Row {
             };
             (name, why)
         }
+        Ending::Measured { done, of } => (OutcomeName::Refused, format!("{done} of {of} hinges calibrated")),
         Ending::Refused(why) => (OutcomeName::Refused, why.clone()),
         Ending::Killed => (OutcomeName::Killed, String::new()),
     };
