@@ -36,6 +36,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "zygote-recording",
         &["zygote-stacking", "zygote-deployment", "zygote-controller", "zygote-protocol", "zygote-rehearsal"],
     ),
+    ("zygote-live", &["zygote-controller", "zygote-deployment", "zygote-protocol"]),
     (
         "zygote-cli",
         &[
@@ -44,6 +45,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-deployment",
             "zygote-controller",
             "zygote-fabrication",
+            "zygote-live",
             "zygote-protocol",
             "zygote-recording",
             "zygote-rehearsal",

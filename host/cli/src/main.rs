@@ -27,6 +27,7 @@ mod interrupt;
 #[cfg(test)]
 mod line_tests;
 mod link;
+mod live;
 mod net;
 mod noisy_line;
 mod output;
@@ -42,6 +43,7 @@ mod replay;
 mod report;
 mod schedule;
 mod sequence;
+mod serve;
 mod servo_protractor;
 mod servo_report;
 mod settings;

@@ -31,7 +31,7 @@ mod transport;
 
 pub use clock::{Clock, ClockFit, Exchange};
 pub use connect::ConnectError;
-pub use deploy::{DeployError, Deployment, Progress, deploy};
+pub use deploy::{DeployError, Deployment, Moment, Progress, Wish, deploy};
 pub use drift::{DriftError, DriftVerdict, HingeDrift, SeenMotion, Sightings};
 pub use estimate::MotionState;
 pub use event_log::{EventLog, Observer, Record, Times};

@@ -2,7 +2,7 @@
 
 import { element, icon, ICONS } from "./element";
 import { type Legend, missing, type Mode, MODE_NAMES, MODES } from "./paint";
-import { KEYS } from "./keyboard";
+import { KEYS, LIVE_KEYS } from "./keyboard";
 import type { Scene } from "./scene";
 
 export interface Tools {
@@ -12,6 +12,7 @@ export interface Tools {
   pick(panel: number): void;
   frame(): void;
   theme(): void;
+  help(): void;
 }
 
 export class Toolbar {
@@ -39,7 +40,7 @@ export class Toolbar {
     number.addEventListener("change", () => {
       if (number.value !== "" && number.checkValidity()) tools.pick(Number(number.value));
     });
-    this.help = keys();
+    this.help = keys(scene.run?.from === "live" ? LIVE_KEYS : KEYS);
     const button = (name: string, path: string, does: () => void) => {
       const made = element("button", { type: "button", class: "quiet", "aria-label": name, title: name }, icon(path));
       made.addEventListener("click", does);
@@ -51,7 +52,7 @@ export class Toolbar {
       element("div", { class: "buttons" },
         button("Look at everything (F)", ICONS.frame, () => tools.frame()),
         button("Light or dark (T)", ICONS.theme, () => tools.theme()),
-        button("Keys (?)", ICONS.help, () => this.help.showModal())),
+        button("Keys (?)", ICONS.help, () => tools.help())),
       row("Colour", this.mode),
       this.legend,
       row("Apart", this.explode),
@@ -81,8 +82,8 @@ function drawn(legend: Legend): HTMLElement[] {
   return [bar, element("span", { class: "from" }, legend.from), element("span", { class: "to" }, legend.to)];
 }
 
-function keys(): HTMLDialogElement {
-  const rows = KEYS.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, keys), element("td", {}, does)));
+function keys(list: typeof KEYS): HTMLDialogElement {
+  const rows = list.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, keys), element("td", {}, does)));
   const close = element("button", { type: "submit" }, "Close");
   const title = element("h2", { id: "keys" }, "Keys");
   return element(
