@@ -20,11 +20,11 @@ use zygote_calibration::{
 const SEED: u64 = 91_000;
 const HINGES: usize = 4;
 
-/// Hinges whose supply takes them well past Af, calibrated.
+/// Hinges whose supply takes them far past Af, a tenth weaker too; calibrated.
 fn hinges() -> Vec<(Subject, Calibrated)> {
     (SEED..)
         .map(|seed| Subject::new(seed, Spread::Plant))
-        .filter(|subject| subject.can_reach_af(12.0))
+        .filter(|subject| subject.can_reach_af(6.0))
         .filter_map(|subject| {
             let calibrated = calibrate(&subject, &Bounds::default()).expect("a plant that runs")?;
             Some((subject, calibrated))
@@ -35,11 +35,13 @@ fn hinges() -> Vec<(Subject, Calibrated)> {
 
 #[test]
 fn hinges_that_changed_are_named_with_what_changed_and_the_others_are_kept() {
+    let mut drifting = 0;
     for (at, (subject, calibrated)) in hinges().iter().enumerate() {
         for since in Since::ALL {
             let drift = opened(subject, calibrated, since, 7 + at as u64).expect("a plant that runs");
             let Drift::Recalibrate { changes } = &drift else {
-                assert_eq!((since, &drift), (Since::Nothing, &Drift::Keep), "hinge {at}");
+                assert_eq!(drift, Drift::Keep, "hinge {at}, {}", since.name());
+                assert!(!matters(subject, since), "hinge {at}, {} was kept", since.name());
                 continue;
             };
             let named = |wanted: Quantity| {
@@ -56,10 +58,28 @@ fn hinges_that_changed_are_named_with_what_changed_and_the_others_are_kept() {
                 Since::AlloyUpFiveKelvin | Since::ThermistorDownTenPercent => {
                     named(Quantity::AusteniteFinish)
                 }
-                Since::ThermistorDrifts => true,
+                // By the end of a short run it hasn't gone far.
+                Since::ThermistorDrifts => {
+                    drifting += 1;
+                    true
+                }
             };
             assert!(right, "hinge {at}, {}: {drift:?}", since.name());
         }
+    }
+    assert!(drifting >= HINGES - 1, "{drifting} of {HINGES} drifting thermistors were seen");
+}
+
+/// A hinge that gives most of its heat to its panels hardly notices the air.
+fn matters(subject: &Subject, since: Since) -> bool {
+    let mut changed = subject.hinge;
+    since.change(&mut changed);
+    let rise =
+        |hinge| Subject { config: subject.config.clone(), hinge, ..*subject }.truth(Quantity::FoilRise);
+    match since {
+        Since::Nothing | Since::ThermistorDrifts => false,
+        Since::ConvectionUpThirtyPercent => rise(changed) / rise(subject.hinge) < 0.88,
+        Since::HeaterUpTenPercent | Since::AlloyUpFiveKelvin | Since::ThermistorDownTenPercent => true,
     }
 }
 

@@ -44,7 +44,7 @@ impl Since {
         }
     }
 
-    fn change(self, hinge: &mut SmaConfig) {
+    pub(crate) fn change(self, hinge: &mut SmaConfig) {
         match self {
             Self::Nothing | Self::ThermistorDrifts => {}
             Self::HeaterUpTenPercent => hinge.heater_ohm *= 1.1,
