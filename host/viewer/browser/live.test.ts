@@ -103,7 +103,7 @@ test("one key stops it, with a dialog open too, and the page says when the MCU h
 });
 
 test("a run is paused, and goes on from there", async () => {
-  const page = await look((await deploy("--pace", "4")).address);
+  const page = await look((await deploy("--pace", "6")).address);
   await start(page);
   await order(page, "pause");
   await stage(page, "paused");
