@@ -17,6 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
     ("zygote-calibration", &["zygote-core", "zygote-sim"]),
+    ("zygote-fabrication", &["zygote-deployment", "zygote-stacking"]),
     ("zygote-controller", &["zygote-calibration", "zygote-protocol", "zygote-deployment"]),
     (
         "zygote-rehearsal",
@@ -43,6 +44,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
+            "zygote-fabrication",
             "zygote-live",
             "zygote-protocol",
             "zygote-recording",

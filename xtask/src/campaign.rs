@@ -1,4 +1,4 @@
-//! `cargo xtask campaign [--runs N] [--seed S] [--threads T]`, or `--replay SEED:NUMBER`: random rehearsals, judged.
+//! `cargo xtask campaign [--calibrate] [--runs N] [--seed S] [--threads T]`, or `--replay SEED:NUMBER`: random rehearsals, judged.
 
 use crate::tools::{self, cargo};
 use anyhow::Result;

@@ -35,7 +35,7 @@ pub(crate) enum Verb {
     Picture(picture::Arguments),
     /// Show a plan in the browser: the way from stack to shape, panel by panel
     View(view::Arguments),
-    /// Write a plan as a file of another program: an animated scene
+    /// Write a plan as files for a workshop: bodies to print, sheets to cut, bill, assembly pages, net, scenes
     Export(export::Arguments),
     /// Run a plan's schedule backwards: what folds the shape up again, with servos alone
     Fold(fold_back::Arguments),

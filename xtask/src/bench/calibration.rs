@@ -1,5 +1,5 @@
-//! `cargo xtask bench calibration [--hinges N] [--broken N] [--seed S] [--wide] [--verbose]`: random simulated hinges, calibrated and held
-//! against what they are, then the same with a fault each; and a picture of one.
+//! `cargo xtask bench calibration [--hinges N] [--broken N] [--drift N] [--first N] [--seed S] [--wide] [--verbose]`: random simulated hinges, calibrated
+//! and held against what they are, then the same with a fault each, and a picture of one; with `--drift` how they are judged that change afterwards.
 
 use crate::tools::{self, cargo};
 use anyhow::{Context, Result};

@@ -55,6 +55,11 @@ impl Scratch {
         Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }
 
+    #[allow(dead_code, reason = "not every test needs a path")]
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
     /// A command that goes on until it is dropped.
     #[allow(dead_code, reason = "not every test serves something")]
     pub(crate) fn start(&self, arguments: &[&str]) -> Server {
