@@ -69,7 +69,7 @@ test("a run is armed, started and seen through to its end", async () => {
   expect(await opened(page)).toBe(0);
   expect(await page.locator("#run .waiting").textContent()).toMatch(/^Waiting: \d.*after \d/);
   await start(page);
-  expect(await page.getByRole("combobox", { name: "Colour" }).inputValue()).toBe("temperature");
+  expect(await page.getByLabel("Colour", { exact: true }).inputValue()).toBe("temperature");
   await stage(page, "over");
   expect(await opened(page)).toBe(5);
   expect(await page.locator("#run .result").textContent()).toContain("deployed: nothing: every hinge is open");
@@ -103,7 +103,7 @@ test("one key stops it, with a dialog open too, and the page says when the MCU h
 });
 
 test("a run is paused, and goes on from there", async () => {
-  const page = await look((await deploy("--pace", "4")).address);
+  const page = await look((await deploy("--pace", "6")).address);
   await start(page);
   await order(page, "pause");
   await stage(page, "paused");
@@ -130,6 +130,9 @@ test("a page without control watches and can stop; one that comes back sees all 
   const third = await look(address);
   await stage(third, "running");
   expect(await third.locator("#run li", { hasText: "The MCU is armed" }).count()).toBe(1);
+  // A list that drops down would keep the key to itself.
+  await third.getByRole("listbox", { name: "Colour" }).selectOption("pile");
+  await third.getByRole("listbox", { name: "Colour" }).click();
   await third.keyboard.press("Escape");
   await third.locator('#stop[data-how="confirmed"]').waitFor();
   await stage(second, "safe");

@@ -52,7 +52,7 @@ export class RunCard {
     const look = run.lookAt(time);
     const { pace, current_limit_a, line, rig } = run.begin;
     const rows: [string, string][] = [
-      ["Rig", `${rig} on ${line}${pace === 1 ? "" : `, × ${pace}`}`],
+      ["Rig", `${rig} on ${line}${pace === 1 ? "" : `, ×\u202f${pace}`}`],
       ["Clock", `${minutes(time)} of ${minutes(run.expectedEnd)}`],
       ["Open", `${run.opened(time)} of ${run.courses.length} hinges`],
       ["Current", look ? `${look.current_a.toFixed(2)} A of ${current_limit_a.toFixed(1)} A` : "–"],

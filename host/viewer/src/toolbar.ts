@@ -29,6 +29,8 @@ export class Toolbar {
       const words = why === undefined ? MODE_NAMES[mode] : `${MODE_NAMES[mode]} (${why})`;
       return element("option", { value: mode, disabled: why !== undefined }, words);
     }));
+    // A list that drops down would keep the key that stops a run to itself.
+    if (scene.run?.from === "live") this.mode.size = MODES.length;
     this.mode.addEventListener("change", () => tools.colour(this.mode.value as Mode));
     this.explode = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0" });
     this.explode.addEventListener("input", () => tools.explode(Number(this.explode.value)));
