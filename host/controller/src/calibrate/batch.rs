@@ -32,8 +32,13 @@ struct Course {
     /// Times at which it was off although it hadn't ended, as far as was known: a reading was put to the test.
     offs: Vec<Off>,
     last: Option<Look>,
+    /// Looks in a row without a reading.
+    unread: u32,
     rested: bool,
 }
+
+/// A thermistor without a reading in so many looks in a row, 3 s, isn't waited for.
+const MOST_UNREAD: u32 = 30;
 
 /// A time without power.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +66,7 @@ impl Batch {
                 ended_s: None,
                 offs: Vec::new(),
                 last: None,
+                unread: 0,
                 rested: false,
             };
             (*hinge, course)
@@ -146,7 +152,16 @@ impl Batch {
             if course.rested || course.started_s.is_none_or(|started_s| look.t_s <= started_s) {
                 continue;
             }
-            let Some(reading_c) = look.reading_c else { continue };
+            let Some(reading_c) = look.reading_c else {
+                course.unread += 1;
+                // Under power the MCU decides.
+                if course.unread > MOST_UNREAD && course.ended_s.is_some() {
+                    hinge.lose_thermistor();
+                    course.rested = true;
+                }
+                continue;
+            };
+            course.unread = 0;
             let alone = driven.iter().chain(&self.driven).all(|channel| *channel == hinge.channel);
             let current_a = alone.then_some(look.sum_a);
             let later = hinge.record.samples.last().is_none_or(|last| look.t_s > last.t_s);

@@ -94,6 +94,11 @@ impl Hinge {
         self.wish = None;
     }
 
+    /// Nothing was measured since.
+    pub(crate) fn is_as_it_was(&self) -> bool {
+        self.kept == (self.record.samples.len(), self.record.drives.len())
+    }
+
     /// What was measured since is thrown away: a pulse that was cut short.
     pub(crate) fn forget(&mut self) {
         self.record.samples.truncate(self.kept.0);
@@ -104,6 +109,12 @@ impl Hinge {
     pub(crate) fn fail(&mut self, fault: &Fault) {
         let Fault { code, value, limit, .. } = fault;
         self.ending = Some(Ending::Fault(format!("{code}: measured {value}, limit {limit}")));
+    }
+
+    /// Ends because its thermistor can't be believed any more while nothing is heated: the MCU minds that only under power.
+    pub(crate) fn lose_thermistor(&mut self) {
+        let why = "its thermistor gave no reading that can be believed while the heater was off";
+        self.ending = Some(Ending::Fault(why.to_owned()));
     }
 
     /// Temperature at rest, before anything was heated.

@@ -258,6 +258,9 @@ impl<T: Transport> Bench<'_, T> {
         }
         for at in members {
             if let Some(hinge) = self.hinges.get_mut(at) {
+                if hinge.is_as_it_was() {
+                    hinge.lose_thermistor();
+                }
                 hinge.keep();
             }
         }

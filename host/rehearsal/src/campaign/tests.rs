@@ -15,7 +15,7 @@ fn two_thousand_random_trials_break_no_rule() {
 
 #[test]
 fn random_calibrations_break_no_rule() {
-    let summary = run(Work::Calibrate, SEED, 16, 2).unwrap();
+    let summary = run(Work::Calibrate, SEED, 10, 2).unwrap();
     println!("{summary}");
     assert!(summary.failures.is_empty(), "seed {SEED}: {:#?}", summary.failures);
     assert!(summary.endings.contains_key("calibrated"), "{:?}", summary.endings);
