@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from zygote_wire import cobs, codes, commands, frames, postcard, reports
+from zygote_wire import calibration, cobs, codes, commands, frames, postcard, reports
 from zygote_wire.codes import Faulted, Refused
 from zygote_wire.commands import Heat, Pulse, Release, Step, Turn
 from zygote_wire.frames import Frame, Kind
@@ -28,6 +28,9 @@ STEPS = (
     Step(1, (), Turn(2, 500, 1_500, 900, 150, 400, 50)),
     Step(2, (), Release(0, 200, 500, 1_000)),
 )
+HEATER = calibration.HeaterCalibration(current=200, gain=4_800, window=3_000, opens_at=7_800)
+UNSEEN = calibration.HeaterCalibration(current=200, gain=4_800, window=3_000, opens_at=None)
+SERVO = calibration.ServoCalibration(shortest_us=520, longest_us=2_480)
 PULSED = (Step(4, (), Pulse(3, 250, 20_000, 9_500, 12_000, 4_500, 500, 150, 5_000, 200)),)
 MOTIONS = (
     reports.Motion(0, reports.Heating(-5, 1_000)),
@@ -68,6 +71,11 @@ MESSAGES = [
     (commands.Request, request(commands.Steps(0, PULSED))),
     (commands.Request, request(commands.Readings(16))),
     (commands.Request, request(commands.Memory())),
+    (commands.Request, request(commands.AskCalibration(calibration.Heater(3)))),
+    (commands.Request, request(commands.AskCalibration(calibration.Servo(300)))),
+    (commands.Request, request(commands.Calibrate(calibration.CalibratedHeater(3, HEATER)))),
+    (commands.Request, request(commands.Calibrate(calibration.CalibratedHeater(3, UNSEEN)))),
+    (commands.Request, request(commands.Calibrate(calibration.CalibratedHeater(3, None)))),
     (commands.Urgent, commands.Urgent.STOP),
     (reports.Report, response(reports.Done())),
     (reports.Report, response(STATUS)),
@@ -91,6 +99,8 @@ MESSAGES = [
         ),
     ),
     (reports.Report, response(reports.MemoryReport(reports.MemoryState.OTHER_VERSION, 300))),
+    (reports.Report, response(reports.CalibrationReport(calibration.CalibratedServo(3, SERVO)))),
+    (reports.Report, response(reports.CalibrationReport(calibration.CalibratedServo(3, None)))),
     (reports.Report, event(reports.Entered(reports.State.RUNNING))),
     (reports.Report, event(reports.StepStarted(1))),
     (reports.Report, event(reports.StepOpened(1))),

@@ -66,7 +66,16 @@ impl Rig {
         let mut out = [0; MAX_ENCODED];
         let length = encode(header, payload, &mut out).expect("the payload was cut to fit");
         self.core.handle_bytes(self.now, &out[..length]);
+        self.store();
         self.drain();
+    }
+
+    /// What a board does with what is to be kept; with its stop button pressed it can't.
+    fn store(&mut self) {
+        if self.core.to_store().is_some() {
+            self.hold();
+            self.core.stored(!self.stop_pressed);
+        }
     }
 
     /// Takes what the core says, and acknowledges it with the next request.
@@ -148,6 +157,7 @@ fn event(rig: &mut Rig, data: &mut &[u8]) -> Option<()> {
     match byte(data)? % 6 {
         0 => {
             rig.core.handle_bytes(rig.now, bytes(data)?);
+            rig.store();
             rig.drain();
         }
         1 => {

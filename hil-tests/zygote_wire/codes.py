@@ -30,6 +30,10 @@ class Refused(enum.IntEnum):
     NOT_STORED = 21
     STORING = 22
     PULSE_DUTY = 23
+    CALIBRATED_CURRENT = 24
+    CALIBRATED_GAIN = 25
+    CALIBRATED_TARGET = 26
+    CALIBRATION_VALUE = 27
 
 
 class Faulted(enum.IntEnum):

@@ -5,7 +5,7 @@ import enum
 import zlib
 from collections.abc import Iterable
 
-from zygote_wire import postcard
+from zygote_wire import calibration, postcard
 from zygote_wire.hello import Limits, Settings
 from zygote_wire.postcard import I16, U16, U32, Text
 
@@ -171,6 +171,20 @@ class Memory:
     """What became of what you keep over power cycles?"""
 
 
+@dataclasses.dataclass(frozen=True)
+class AskCalibration:
+    """What do you know of this actuator?"""
+
+    actuator: calibration.Actuator
+
+
+@dataclasses.dataclass(frozen=True)
+class Calibrate:
+    """Keep this for good, or forget what you knew."""
+
+    calibration: calibration.Calibration
+
+
 Command = (
     Status
     | Progress
@@ -186,6 +200,8 @@ Command = (
     | Configure
     | Readings
     | Memory
+    | AskCalibration
+    | Calibrate
 )
 
 

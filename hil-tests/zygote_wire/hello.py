@@ -6,8 +6,8 @@ from typing import Annotated
 
 from zygote_wire.postcard import I16, U8, U16, U32, Raw, Text
 
-VERSION = 4
-SCHEMA = 0xEB313DD1
+VERSION = 5
+SCHEMA = 0x7A13A429
 
 
 class ResetCause(enum.IntEnum):

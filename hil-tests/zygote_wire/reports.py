@@ -3,6 +3,7 @@
 import dataclasses
 import enum
 
+from zygote_wire.calibration import Calibration
 from zygote_wire.codes import Faulted, Refused
 from zygote_wire.hello import Settings
 from zygote_wire.postcard import I16, I64, U8, U16, U32, U64
@@ -138,7 +139,14 @@ class MemoryReport:
     damaged: U16
 
 
-Reply = Done | Status | Progress | LastRun | SettingsReport | Readings | MemoryReport
+@dataclasses.dataclass(frozen=True)
+class CalibrationReport:
+    """What the board knows of an actuator."""
+
+    calibration: Calibration
+
+
+Reply = Done | Status | Progress | LastRun | SettingsReport | Readings | MemoryReport | CalibrationReport
 
 
 @dataclasses.dataclass(frozen=True)

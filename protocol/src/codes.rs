@@ -83,8 +83,8 @@ codes! {
             "declared; computed by the MCU", AS_BEFORE, "upload again";
         ProgramEmpty = 7, "a program needs at least one step",
             "1; 0", AS_BEFORE, "make a schedule that has a step";
-        UnknownChannel = 8, "a step names a channel that the board doesn't have",
-            "at: step; highest channel; channel", AS_BEFORE, "mend the rig file";
+        UnknownChannel = 8, "a step or a calibration names a channel that the board doesn't have",
+            "at: step, or the calibration's channel; highest channel; channel", AS_BEFORE, "mend the rig file";
         ChannelTaken = 9, "two steps drive the same channel",
             "at: the second step; channel; channel", AS_BEFORE, "mend the rig file";
         HingeTaken = 10, "two steps move the same hinge",
@@ -107,16 +107,24 @@ codes! {
             "600,000; lifetime, in ms", AS_BEFORE, "ask for ten minutes at most";
         StopPressed = 19, "the emergency stop is pressed",
             "0; 1", AS_BEFORE, "look at the rig, release the button";
-        ServoRange = 20, "a servo pulse is outside what the board sends",
+        ServoRange = 20, "a servo pulse is outside what the board sends, or its servo was measured to bear",
             "at: step; nearest bound; pulse, in us", AS_BEFORE, "mend the rig file";
         Unreadable = 21, "the command passed its checksum but can't be read: of another version, or a field too long",
             "0; 0", AS_BEFORE, "use host and firmware of one version";
-        NotStored = 22, "the settings can't be stored: the flash doesn't take them",
+        NotStored = 22, "what was to be kept can't be stored: the flash doesn't take it",
             "", AS_BEFORE, "try again; if that doesn't help, the flash is worn: replace the board";
-        Storing = 23, "settings are being stored",
+        Storing = 23, "something is being stored",
             "", AS_BEFORE, "wait for their answer";
         PulseDuty = 24, "a pulse's power isn't between 1 and 1,000 per mille",
             "at: step; nearest bound; power, per mille", AS_BEFORE, "ask for a power within the bounds";
+        CalibratedCurrent = 25, "a step declares less current than its heater was measured to draw",
+            "at: step; least current; current, in mA", AS_BEFORE, "name the calibration in the rig file (`rig.calibration`) and make the schedule anew; calibrate again what was replaced";
+        CalibratedGain = 26, "a step expects less of its heater than a quarter of what was measured, so a loose thermistor would be seen late",
+            "at: step; least gain; gain, in 0.01 °C", AS_BEFORE, "name the calibration in the rig file (`rig.calibration`) and make the schedule anew; calibrate again what was replaced";
+        CalibratedTarget = 27, "a step's target isn't above the temperature at which its hinge was measured to be open",
+            "at: step; that temperature; target, in 0.01 °C", AS_BEFORE, "raise the rig file's `target` and make the schedule anew; calibrate again what was replaced";
+        CalibrationValue = 28, "a calibration has a value that can't be",
+            "at: channel; nearest possible value; value", AS_BEFORE, "calibrate again";
     }
 }
 

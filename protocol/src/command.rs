@@ -16,10 +16,12 @@
 //! | `Configure` | any but Armed, Running | settings are written down for good, then in force |
 //! | `Readings` | any | none |
 //! | `Memory` | any | none |
+//! | `Calibration` | any | none |
+//! | `Calibrate` | any but Armed, Running | what was measured is written down for good, then in force |
 
 use crate::{
-    Fault, Limits, MemoryReport, Micros, Millis, Readings, RefusalCode, Settings, SettingsReport, Snapshot,
-    Step,
+    Actuator, Calibration, Fault, Limits, MemoryReport, Micros, Millis, Readings, RefusalCode, Settings,
+    SettingsReport, Snapshot, Step,
 };
 use heapless::{String, Vec};
 use postcard_schema::Schema;
@@ -108,6 +110,10 @@ pub enum Command {
     },
     /// What became of what you keep over power cycles? Answered by [`Reply::Memory`].
     Memory,
+    /// What do you know of this actuator? Answered by [`Reply::Calibration`].
+    Calibration(Actuator),
+    /// Keep this for good, or forget what you knew. Answered once it is stored.
+    Calibrate(Calibration),
 }
 
 /// The answer to a [`Request`].
@@ -141,6 +147,8 @@ pub enum Reply {
     Readings(Readings),
     /// To [`Command::Memory`].
     Memory(MemoryReport),
+    /// To [`Command::Calibration`].
+    Calibration(Calibration),
 }
 
 /// Why a command was refused; it then changed nothing.

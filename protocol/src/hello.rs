@@ -9,9 +9,9 @@ use postcard_schema::Schema;
 use serde::{Deserialize, Serialize};
 
 /// The protocol version that this crate speaks.
-pub const VERSION: u16 = 4;
+pub const VERSION: u16 = 5;
 /// The oldest protocol version that this crate still understands.
-pub const VERSION_MIN: u16 = 4;
+pub const VERSION_MIN: u16 = 5;
 
 /// Host to MCU: opens the session whose number stands in the frame.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, Schema)]

@@ -15,11 +15,13 @@
 #![no_std]
 #![warn(clippy::indexing_slicing, clippy::as_conversions)]
 
+mod calibration;
 mod codes;
 mod command;
 mod crc;
 mod frame;
 mod hello;
+mod kept;
 mod limits;
 mod link;
 mod memory;
@@ -31,6 +33,7 @@ mod snapshot;
 mod step;
 mod units;
 
+pub use calibration::{Actuator, Calibration, HeaterCalibration, ServoCalibration};
 pub use codes::{Explanation, FaultCode, RefusalCode};
 pub use command::{
     Command, PROGRESS_PER_REPLY, Refusal, Reply, Request, Response, RigId, STEPS_PER_COMMAND, State, Status,
@@ -41,6 +44,7 @@ pub use hello::{
     Buffers, Channels, Hello, HelloReply, Identity, ResetCause, VERSION, VERSION_MIN, granted_session,
     peek_versions,
 };
+pub use kept::Kept;
 pub use limits::{LimitName, Limits};
 pub use link::{Link, LinkCounters, NO_SESSION, Received, SendError, WINDOW};
 pub use memory::{MemoryReport, MemoryState};

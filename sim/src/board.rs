@@ -10,8 +10,8 @@ use crate::plant::{Config as PlantConfig, Drive, Plant, PlantError};
 use core::time::Duration;
 use zygote_core::{Config, Core, Inputs, NTC_10K};
 use zygote_protocol::{
-    CentiCelsius, Channels, Identity, Limits, MAX_ENCODED, MemoryReport, MemoryState, Micros, Milliamps,
-    Millis, ResetCause, Retained, Settings,
+    CentiCelsius, Channels, Identity, Kept, Limits, MAX_ENCODED, MemoryReport, MemoryState, Micros,
+    Milliamps, Millis, ResetCause, Retained,
 };
 
 /// Time between two control ticks: as slow as the core allows, to be fast.
@@ -28,6 +28,9 @@ const STEPS: usize = HEATERS + SERVOS + SPRINGS;
 
 /// The firmware core as the simulated board runs it.
 pub type SimCore = Core<HEATERS, SERVOS, SPRINGS, STEPS>;
+
+/// What the simulated board keeps over power cycles.
+type SimKept = Kept<HEATERS, SERVOS>;
 
 /// What no host can exceed on the simulated board; a choice that suits paper and plastic next to the hinges.
 pub const CEILING: Limits = Limits {
@@ -57,8 +60,8 @@ pub struct Board {
     next_tick: Micros,
     stop_pressed: bool,
     stuck: Option<(Stuck, Micros)>,
-    /// Settings that outlive power.
-    kept: Option<Settings>,
+    /// What outlives power.
+    kept: Option<Box<SimKept>>,
     /// Memory that a reset leaves alone, and the core's changes that it holds.
     retained: (u32, Retained),
 }
@@ -121,8 +124,8 @@ impl Board {
         self.stuck = None;
         let before = if cause == ResetCause::Power { None } else { self.retained.1.recall() };
         *self.core = Core::new(config(self.channels, self.boot, cause), self.now, before);
-        if let Some(settings) = &self.kept {
-            self.core.restore(settings);
+        if let Some(kept) = &self.kept {
+            self.core.restore(SimKept::clone(kept));
             self.core.remember(MemoryReport { state: MemoryState::Kept, damaged: 0 });
         }
         self.retained = (0, Retained::NOTHING);
@@ -147,8 +150,8 @@ impl Board {
         // A stuck program leaves them in the line's buffer, which runs over.
         if self.stuck.is_none() {
             self.core.handle_bytes(self.now, bytes);
-            if let Some(settings) = self.core.to_store() {
-                self.kept = Some(*settings);
+            if let Some(kept) = self.core.to_store() {
+                self.kept = Some(Box::new(kept.clone()));
                 self.core.stored(true);
             }
             self.retain();

@@ -17,6 +17,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("zygote-stacking", &[]),
     ("zygote-deployment", &["zygote-stacking"]),
     ("zygote-calibration", &["zygote-core", "zygote-sim"]),
+    ("zygote-fabrication", &["zygote-deployment", "zygote-stacking"]),
     ("zygote-controller", &["zygote-calibration", "zygote-protocol", "zygote-deployment"]),
     (
         "zygote-rehearsal",
@@ -35,6 +36,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "zygote-recording",
         &["zygote-stacking", "zygote-deployment", "zygote-controller", "zygote-protocol", "zygote-rehearsal"],
     ),
+    ("zygote-live", &["zygote-controller", "zygote-deployment", "zygote-protocol"]),
     (
         "zygote-cli",
         &[
@@ -42,6 +44,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "zygote-stacking",
             "zygote-deployment",
             "zygote-controller",
+            "zygote-fabrication",
+            "zygote-live",
             "zygote-protocol",
             "zygote-recording",
             "zygote-rehearsal",

@@ -20,6 +20,7 @@ mod sections;
 mod stack;
 mod tests;
 mod tools;
+mod tutorial;
 mod viewer;
 
 use parts::Part;
@@ -34,6 +35,7 @@ const PARTS: &[Part] = &[
     Part { verb: "unit", about: "unit and integration tests (nextest)", run: tests::unit },
     Part { verb: "doctest", about: "examples in the documentation", run: tests::doc },
     Part { verb: "docs", about: "the book (mdBook)", run: docs::run },
+    Part { verb: "tutorial", about: "every command of the book's tutorial", run: tutorial::run },
     Part { verb: "hil", about: "the serial suite on the simulated MCU (pytest)", run: || hil::run(&[]) },
     Part { verb: "browser", about: "the viewer's page, in a real browser", run: viewer::test },
     Part { verb: "firmware", about: "every board, linked and within its memory", run: firmware::run },

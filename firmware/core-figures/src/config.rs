@@ -4,7 +4,10 @@ use crate::call::CHANNELS;
 use core::ops::RangeInclusive;
 use heapless::String;
 use zygote_core::{Config, NTC_10K};
-use zygote_protocol::{CentiCelsius, Channels, Identity, Limits, Milliamps, Millis, ResetCause};
+use zygote_protocol::{
+    Calibration, CentiCelsius, Channels, HeaterCalibration, Identity, Kept, Limits, Milliamps, Millis,
+    ResetCause, ServoCalibration,
+};
 
 /// No session may ask for more.
 pub(crate) const CEILING: Limits = Limits {
@@ -33,4 +36,21 @@ pub(crate) fn config(boot: u32) -> Config {
         thermistor: NTC_10K,
         servo_pulse_us: RangeInclusive::new(500, 2_500),
     }
+}
+
+/// What it keeps: every heater and servo is calibrated, so that each step is held against something, and fits.
+pub(crate) fn kept() -> Kept<CHANNELS, CHANNELS> {
+    let heater = HeaterCalibration {
+        current: Milliamps(1),
+        gain: CentiCelsius(1),
+        window: Millis(7_000),
+        opens_at: Some(CentiCelsius(0)),
+    };
+    let servo = ServoCalibration { shortest_us: 500, longest_us: 2_500 };
+    let mut kept = Kept::NOTHING;
+    for channel in (0..CHANNELS).flat_map(u16::try_from) {
+        kept.put(Calibration::Heater { channel, known: Some(heater) });
+        kept.put(Calibration::Servo { channel, known: Some(servo) });
+    }
+    kept
 }

@@ -55,7 +55,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[unsafe(no_mangle)]
 extern "C" fn figures_new(core: &mut MaybeUninit<AnyCore>, call: &mut Call) {
     let before = Retained::from_words(&call.retained).recall();
-    core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before));
+    core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before)).restore(config::kept());
 }
 
 #[expect(unsafe_code, reason = "the linker finds the entry by its name")]
@@ -112,13 +112,13 @@ extern "C" fn figures_keep(core: &mut AnyCore, call: &mut Call) {
     call.retained = Retained::new(&core.snapshot(Micros(call.now))).to_words();
 }
 
-/// What a board does with settings: writes them down, says so, and knows them after the next start. Not counted, for nothing is
+/// What a board does with what is to be kept: writes them down, says so, and knows them after the next start. Not counted, for nothing is
 /// energised then.
 #[expect(unsafe_code, reason = "the linker finds the entry by its name")]
 #[unsafe(no_mangle)]
 extern "C" fn figures_settings(core: &mut AnyCore, call: &mut Call) {
-    if let Some(settings) = core.to_store().copied() {
+    if let Some(kept) = core.to_store().cloned() {
         core.stored(call.stop_pressed != 0);
-        core.restore(&settings);
+        core.restore(kept);
     }
 }

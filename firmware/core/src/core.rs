@@ -24,10 +24,10 @@ use crate::thermal_guard::ThermalGuard;
 use crate::trip::Trip;
 use zygote_protocol::{
     Action, Buffers, CentiCelsius, Channels, Event, EventKind, Fault, FaultCode, Heat, Hello, HelloReply,
-    Limits, Link, LinkCounters, MAX_PAYLOAD, MemoryReport, Micros, Milliamps, Millis, Millivolts, NO_SESSION,
-    Pulse, Received, RefusalCode, Report, Request, Response, Settings, Snapshot, State, StepState, Telemetry,
-    Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id, peek_versions,
-    schema,
+    Kept, Limits, Link, LinkCounters, MAX_PAYLOAD, MemoryReport, Micros, Milliamps, Millis, Millivolts,
+    NO_SESSION, Pulse, Received, RefusalCode, Report, Request, Response, Snapshot, State, StepState,
+    Telemetry, Urgent, VERSION, VERSION_MIN, WINDOW, decode_payload, granted_session, peek_request_id,
+    peek_versions, schema,
 };
 
 /// Time between two telemetry messages.
@@ -47,7 +47,7 @@ pub struct Core<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize,
     pub(crate) guards: [ThermalGuard; HEATERS],
     pub(crate) stop_pressed: bool,
     servos_lost: bool,
-    pub(crate) keeper: Keeper,
+    pub(crate) keeper: Keeper<HEATERS, SERVOS>,
     pub(crate) outputs: Outputs<HEATERS, SERVOS, SPRINGS>,
     link: Link,
     events: EventQueue,
@@ -97,9 +97,9 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         }
     }
 
-    /// Settings that the board kept, in force as far as it allows them (S13). To be told once, after the start.
-    pub fn restore(&mut self, stored: &Settings) {
-        self.keeper.restore(&mut self.config, stored);
+    /// What the board kept: settings in force as far as it allows them (S13), and what was measured. To be told once, after the start.
+    pub fn restore(&mut self, kept: Kept<HEATERS, SERVOS>) {
+        self.keeper.restore(&mut self.config, kept);
     }
 
     /// What the board found in the memory that outlives power, for hosts that ask. To be told once, after the start; nothing was
@@ -108,8 +108,8 @@ impl<const HEATERS: usize, const SERVOS: usize, const SPRINGS: usize, const STEP
         self.keeper.remember(memory);
     }
 
-    /// Settings that the board is to write down now, and then to say so to [`Self::stored`]; nothing is energised.
-    pub fn to_store(&self) -> Option<&Settings> {
+    /// What the board is to write down now, and then to say so to [`Self::stored`]; nothing is energised.
+    pub fn to_store(&self) -> Option<&Kept<HEATERS, SERVOS>> {
         self.keeper.to_store()
     }
 

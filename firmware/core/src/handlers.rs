@@ -1,5 +1,6 @@
 //! One handler a command: the mirror of the table in `zygote_protocol::Command`.
 
+use crate::calibration;
 use crate::core::Core;
 use crate::io::{Duty, Outputs};
 use crate::mode::Mode;
@@ -7,8 +8,8 @@ use crate::program::refuse;
 use crate::settings::limit_number;
 use crate::thermal_guard::ThermalGuard;
 use zygote_protocol::{
-    Command, Limits, Micros, Millis, READINGS_PER_REPLY, Reading, Readings, Refusal, RefusalCode, Reply,
-    RigId, Settings, State, Status,
+    Actuator, Calibration, Command, Limits, Micros, Millis, READINGS_PER_REPLY, Reading, Readings, Refusal,
+    RefusalCode, Reply, RigId, Settings, State, Status,
 };
 
 /// Longest time that an arming may wait for its start.
@@ -37,7 +38,9 @@ pub(crate) fn handle<const H: usize, const S: usize, const R: usize, const STEPS
         Command::Settings => Ok(core.keeper.report(now, &core.config)),
         Command::Memory => Ok(Reply::Memory(core.keeper.memory())),
         Command::Readings { first } => Ok(readings(core, first)),
+        Command::Calibration(actuator) => calibration_of(core, actuator),
         Command::Configure(settings) => return configure(core, id, settings).err().map(Err),
+        Command::Calibrate(calibration) => return calibrate(core, id, calibration).err().map(Err),
     })
 }
 
@@ -130,7 +133,7 @@ fn commit<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
         return Err(wrong_state(State::Idle, core.state()));
     }
     let channels = core.channels();
-    core.program.commit(&core.config, channels)?;
+    core.program.commit(&core.config, channels, core.keeper.known())?;
     core.sequencer.load(core.program.steps());
     core.enter(now, Mode::Loaded);
     Ok(Reply::Done)
@@ -163,6 +166,7 @@ fn arm<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
         return Err(refuse(RefusalCode::LifetimeTooLong, 0, MAX_LIFETIME.0, lifetime.0));
     }
     core.program.check_limits(&limits, &core.config)?;
+    calibration::check_all(core.keeper.known(), core.program.steps())?;
     core.restart_guards();
     core.sequencer.load(core.program.steps());
     core.outputs = Outputs { main_switch: true, ..Outputs::OFF };
@@ -224,4 +228,25 @@ fn configure<const H: usize, const S: usize, const R: usize, const STEPS: usize>
         return Err(wrong_state(State::Idle, core.state()));
     }
     core.keeper.configure(id, settings)
+}
+
+fn calibration_of<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
+    core: &Core<H, S, R, STEPS>,
+    actuator: Actuator,
+) -> Answer {
+    calibration::check_actuator(actuator, core.channels())?;
+    Ok(Reply::Calibration(core.keeper.known().of(actuator)))
+}
+
+/// As [`configure`].
+fn calibrate<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
+    core: &mut Core<H, S, R, STEPS>,
+    id: u16,
+    calibration: Calibration,
+) -> Result<(), Refusal> {
+    if core.mode.is_energised() {
+        return Err(wrong_state(State::Idle, core.state()));
+    }
+    let channels = core.channels();
+    core.keeper.calibrate(id, calibration, channels)
 }

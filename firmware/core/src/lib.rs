@@ -10,6 +10,7 @@
 #![no_std]
 #![warn(clippy::indexing_slicing, clippy::as_conversions)]
 
+mod calibration;
 mod config;
 mod core;
 mod event_queue;

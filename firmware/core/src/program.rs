@@ -6,11 +6,12 @@
 //!     +------ Upload starts over from any state
 //! ```
 
+use crate::calibration;
 use crate::config::Config;
 use crate::io::Duty;
 use heapless::{String, Vec};
 use zygote_protocol::{
-    Action, CentiCelsius, Channels, Heat, Limits, Pulse, Refusal, RefusalCode, Step, Turn, program_crc,
+    Action, CentiCelsius, Channels, Heat, Kept, Limits, Pulse, Refusal, RefusalCode, Step, Turn, program_crc,
 };
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,8 +94,13 @@ impl<const STEPS: usize> Program<STEPS> {
             .map_err(|_| refuse(RefusalCode::TooManySteps, first, index(STEPS), index(total)))
     }
 
-    /// Checks the whole program against the board.
-    pub(crate) fn commit(&mut self, config: &Config, channels: Channels) -> Result<(), Refusal> {
+    /// Checks the whole program against the board and what was measured at it.
+    pub(crate) fn commit<const H: usize, const S: usize>(
+        &mut self,
+        config: &Config,
+        channels: Channels,
+        known: &Kept<H, S>,
+    ) -> Result<(), Refusal> {
         if self.state != State::Receiving {
             return Err(refuse(RefusalCode::NoUpload, 0, 0, 0));
         }
@@ -111,6 +117,7 @@ impl<const STEPS: usize> Program<STEPS> {
             self.check_unique(at, step)?;
             check_channel(at, step, channels)?;
             check_motion(at, step, &config.ceiling, config)?;
+            calibration::check(known, at, step)?;
         }
         self.state = State::Checked;
         Ok(())

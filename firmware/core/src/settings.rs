@@ -1,37 +1,49 @@
-//! Settings that outlive power: checked and put into force here, written down by the board (S13).
+//! Settings and calibrations that outlive power: checked and put into force here, written down by the board (S13).
 
+use crate::calibration;
 use crate::config::Config;
 use crate::program::refuse;
 use zygote_protocol::{
-    LimitName, MemoryReport, MemoryState, Micros, Refusal, RefusalCode, Reply, Response, Settings,
-    SettingsReport, TooLax,
+    Calibration, Channels, Kept, LimitName, MemoryReport, MemoryState, Micros, Refusal, RefusalCode, Reply,
+    Response, Settings, SettingsReport, TooLax,
 };
 
-/// What is compiled into the board, and settings on their way into its memory.
+/// What outlives power, what is compiled into the board, and a change on its way into the board's memory.
 #[derive(Debug)]
-pub(crate) struct Keeper {
+pub(crate) struct Keeper<const HEATERS: usize, const SERVOS: usize> {
     compiled: Settings,
+    /// As it is or, while it is written down, will be.
+    kept: Kept<HEATERS, SERVOS>,
     memory: MemoryReport,
     storing: Option<Storing>,
     /// An answer that waits for room on the line.
     late: Option<Response>,
 }
 
-/// Settings that the board is to write down, and whom to tell; nobody, once another session is open.
+/// One thing of what is kept.
+#[derive(Debug, Clone, Copy)]
+enum Change {
+    Settings(Option<Settings>),
+    Calibration(Calibration),
+}
+
+/// A change that the board is to write down: how to take it back, and whom to tell; nobody, once another session is open.
 #[derive(Debug)]
 struct Storing {
-    settings: Settings,
+    undo: Change,
     request: Option<u16>,
 }
 
-impl Keeper {
+impl<const HEATERS: usize, const SERVOS: usize> Keeper<HEATERS, SERVOS> {
     pub(crate) fn new(config: &Config) -> Self {
-        Self { compiled: in_force(config), memory: MemoryReport::BLANK, storing: None, late: None }
+        let compiled = in_force(config);
+        Self { compiled, kept: Kept::NOTHING, memory: MemoryReport::BLANK, storing: None, late: None }
     }
 
     /// What was stored comes into force as far as the board allows it.
-    pub(crate) fn restore(&self, config: &mut Config, stored: &Settings) {
-        put_into_force(config, &stored.within(&self.compiled));
+    pub(crate) fn restore(&mut self, config: &mut Config, kept: Kept<HEATERS, SERVOS>) {
+        self.kept = kept;
+        self.put_into_force(config);
     }
 
     /// What the board found in its memory.
@@ -47,7 +59,12 @@ impl Keeper {
         Reply::Settings(SettingsReport { at, in_force: in_force(config), compiled: self.compiled })
     }
 
-    /// Whether settings are being written down.
+    /// What was measured. Nothing may be armed by it while it is written down.
+    pub(crate) fn known(&self) -> &Kept<HEATERS, SERVOS> {
+        &self.kept
+    }
+
+    /// Whether something is being written down.
     pub(crate) fn is_storing(&self) -> bool {
         self.storing.is_some()
     }
@@ -55,16 +72,10 @@ impl Keeper {
     /// Takes settings to be written down; the answer follows then.
     ///
     /// # Errors
-    /// Settings that go beyond the board, and any while others are being written down.
+    /// Settings that go beyond the board, and any while something is being written down.
     pub(crate) fn configure(&mut self, request: u16, settings: Settings) -> Result<(), Refusal> {
-        if self.is_storing() || self.late.is_some() {
-            return Err(refuse(RefusalCode::Storing, 0, 0, 0));
-        }
         match settings.laxer_than(&self.compiled) {
-            None => {
-                self.storing = Some(Storing { settings, request: Some(request) });
-                Ok(())
-            }
+            None => self.store(request, Change::Settings(Some(settings))),
             Some(TooLax::Limit(name, ceiling, got)) => {
                 Err(refuse(RefusalCode::LimitAboveCeiling, limit_number(name), ceiling, got))
             }
@@ -72,18 +83,56 @@ impl Keeper {
         }
     }
 
-    pub(crate) fn to_store(&self) -> Option<&Settings> {
-        self.storing.as_ref().map(|storing| &storing.settings)
+    /// Takes what was measured to be written down; the answer follows then.
+    ///
+    /// # Errors
+    /// Values and channels that can't be, and any while something is being written down.
+    pub(crate) fn calibrate(
+        &mut self,
+        request: u16,
+        calibration: Calibration,
+        channels: Channels,
+    ) -> Result<(), Refusal> {
+        calibration::check_actuator(calibration.actuator(), channels)?;
+        calibration::check_values(&calibration)?;
+        self.store(request, Change::Calibration(calibration))
     }
 
-    /// The board has written them down, or couldn't; only what is surely kept comes into force.
-    pub(crate) fn stored(&mut self, config: &mut Config, is_stored: bool) {
-        let Some(Storing { settings, request }) = self.storing.take() else { return };
-        self.memory.state = if is_stored { MemoryState::Kept } else { MemoryState::Unusable };
-        if is_stored {
-            put_into_force(config, &settings);
+    fn store(&mut self, request: u16, change: Change) -> Result<(), Refusal> {
+        if self.is_storing() || self.late.is_some() {
+            return Err(refuse(RefusalCode::Storing, 0, 0, 0));
         }
-        let result = if is_stored { Ok(Reply::Done) } else { Err(refuse(RefusalCode::NotStored, 0, 0, 0)) };
+        let undo = self.change(change);
+        self.storing = Some(Storing { undo, request: Some(request) });
+        Ok(())
+    }
+
+    /// Makes a change; the one that takes it back.
+    fn change(&mut self, change: Change) -> Change {
+        match change {
+            Change::Settings(settings) => {
+                Change::Settings(core::mem::replace(&mut self.kept.settings, settings))
+            }
+            // The board has the channel, so something was or wasn't known of it.
+            Change::Calibration(new) => Change::Calibration(self.kept.put(new).unwrap_or(new)),
+        }
+    }
+
+    pub(crate) fn to_store(&self) -> Option<&Kept<HEATERS, SERVOS>> {
+        self.is_storing().then_some(&self.kept)
+    }
+
+    /// The board has written it down, or couldn't; only what is surely kept comes into force.
+    pub(crate) fn stored(&mut self, config: &mut Config, is_stored: bool) {
+        let Some(Storing { undo, request }) = self.storing.take() else { return };
+        self.memory.state = if is_stored { MemoryState::Kept } else { MemoryState::Unusable };
+        let result = if is_stored {
+            self.put_into_force(config);
+            Ok(Reply::Done)
+        } else {
+            self.change(undo);
+            Err(refuse(RefusalCode::NotStored, 0, 0, 0))
+        };
         self.late = request.map(|id| Response { id, result });
     }
 
@@ -99,6 +148,12 @@ impl Keeper {
             storing.request = None;
         }
     }
+
+    fn put_into_force(&self, config: &mut Config) {
+        let settings = self.kept.settings.map_or(self.compiled, |kept| kept.within(&self.compiled));
+        config.ceiling = settings.ceiling;
+        config.servo_pulse_us = settings.shortest_pulse_us..=settings.longest_pulse_us;
+    }
 }
 
 fn in_force(config: &Config) -> Settings {
@@ -107,11 +162,6 @@ fn in_force(config: &Config) -> Settings {
         shortest_pulse_us: *config.servo_pulse_us.start(),
         longest_pulse_us: *config.servo_pulse_us.end(),
     }
-}
-
-fn put_into_force(config: &mut Config, settings: &Settings) {
-    config.ceiling = settings.ceiling;
-    config.servo_pulse_us = settings.shortest_pulse_us..=settings.longest_pulse_us;
 }
 
 /// The place of a limit in [`zygote_protocol::Limits`].

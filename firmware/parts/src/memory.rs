@@ -1,4 +1,4 @@
-//! What outlives power: a count of starts and the settings, in two sectors of flash that take turns.
+//! What outlives power: a count of starts, settings and calibrations, in two sectors of flash that take turns.
 //!
 //! Each change is a record behind the one before it; the highest number whose checksum is right counts. So a write that power cut
 //! falls back to the last good record. A full sector stays as it is until the other one, erased, has taken over.
@@ -6,13 +6,13 @@
 use crate::record::{RECORD, Record, VERSION};
 use core::fmt;
 use embedded_storage::nor_flash::NorFlash;
-use zygote_protocol::{MemoryReport, MemoryState, Settings};
+use zygote_protocol::{Kept, MemoryReport, MemoryState};
 
 /// Places that are tried before a flash is given up as worn.
 const TRIES: u32 = 4;
 const BLANK: [u8; RECORD] = [0xff; RECORD];
 /// `RECORD` as flash addresses have it.
-const STEP: u32 = 64;
+const STEP: u32 = 512;
 
 /// Why something can't be kept or found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,12 +21,12 @@ pub enum MemoryError<E> {
     Flash(E),
     /// What was written doesn't read back: the flash is worn out.
     Worn,
-    /// The settings are of another firmware.
+    /// What is kept is of another firmware.
     Version {
         /// What stands in the record.
         got: u8,
     },
-    /// The settings are longer than a record, or the sectors don't hold whole ones.
+    /// What is to be kept is longer than a record, or the sectors don't hold whole ones.
     Room,
 }
 
@@ -36,7 +36,7 @@ impl<E: fmt::Debug> fmt::Display for MemoryError<E> {
             Self::Flash(error) => write!(f, "the flash failed: {error:?}"),
             Self::Worn => write!(f, "what was written to flash doesn't read back"),
             Self::Version { got } => {
-                write!(f, "the stored settings are of version {got}, expected {VERSION}")
+                write!(f, "what is stored is of version {got}, expected {VERSION}")
             }
             Self::Room => write!(f, "there is no room for the record"),
         }
@@ -45,9 +45,9 @@ impl<E: fmt::Debug> fmt::Display for MemoryError<E> {
 
 impl<E: fmt::Debug> core::error::Error for MemoryError<E> {}
 
-/// The records in two sectors of a flash.
+/// The records in two sectors of a flash, of a board with so many heaters and servos.
 #[derive(Debug)]
-pub struct Memory<F> {
+pub struct Memory<F, const HEATERS: usize, const SERVOS: usize> {
     flash: F,
     /// Where the first sector begins; the other one follows it.
     begin: u32,
@@ -58,7 +58,7 @@ pub struct Memory<F> {
     damaged: u16,
 }
 
-impl<F: NorFlash> Memory<F> {
+impl<F: NorFlash, const HEATERS: usize, const SERVOS: usize> Memory<F, HEATERS, SERVOS> {
     /// The records in the two sectors from `begin` on.
     ///
     /// # Errors
@@ -94,21 +94,21 @@ impl<F: NorFlash> Memory<F> {
             Some((_, latest)) => Record { start: latest.start.wrapping_add(1), ..latest },
             None => Record::first(first),
         };
-        self.append(record).map(|()| record.start)
+        self.append(&record).map(|()| record.start)
     }
 
-    /// The settings, if any were ever kept.
+    /// What is kept, if anything ever was.
     ///
     /// # Errors
     /// [`MemoryError::Version`]
-    pub fn settings(&self) -> Result<Option<Settings>, MemoryError<F::Error>> {
-        let Some((_, latest)) = self.latest else { return Ok(None) };
-        latest.settings().map_err(|got| MemoryError::Version { got })
+    pub fn kept(&self) -> Result<Option<Kept<HEATERS, SERVOS>>, MemoryError<F::Error>> {
+        let Some((_, latest)) = &self.latest else { return Ok(None) };
+        latest.kept().map_err(|got| MemoryError::Version { got })
     }
 
     /// What was found, for a host that asks.
     pub fn report(&self) -> MemoryReport {
-        let state = match self.settings() {
+        let state = match self.kept() {
             Ok(Some(_)) => MemoryState::Kept,
             Ok(None) => MemoryState::Blank,
             Err(_) => MemoryState::OtherVersion,
@@ -116,19 +116,23 @@ impl<F: NorFlash> Memory<F> {
         MemoryReport { state, damaged: self.damaged }
     }
 
-    /// Keeps the settings from now on. May erase, and so take a second.
+    /// Keeps this from now on. May erase, and so take a second.
     ///
     /// # Errors
     /// [`MemoryError`]; what was kept before then still is.
-    pub fn keep(&mut self, settings: &Settings) -> Result<(), MemoryError<F::Error>> {
-        self.keep_as(VERSION, settings)
+    pub fn keep(&mut self, kept: &Kept<HEATERS, SERVOS>) -> Result<(), MemoryError<F::Error>> {
+        self.keep_as(VERSION, kept)
     }
 
-    /// As a firmware with another version of settings would keep them; for tests.
+    /// As a firmware with another version would keep it; for tests.
     #[doc(hidden)]
-    pub fn keep_as(&mut self, version: u8, settings: &Settings) -> Result<(), MemoryError<F::Error>> {
+    pub fn keep_as(
+        &mut self,
+        version: u8,
+        kept: &Kept<HEATERS, SERVOS>,
+    ) -> Result<(), MemoryError<F::Error>> {
         let latest = self.latest.map_or(Record::first(0), |(_, latest)| latest);
-        self.append(latest.with(version, settings).ok_or(MemoryError::Room)?)
+        self.append(&latest.with(version, kept).ok_or(MemoryError::Room)?)
     }
 
     /// Gives the flash back.
@@ -137,14 +141,15 @@ impl<F: NorFlash> Memory<F> {
     }
 
     /// Writes a record behind all others, and sees that it is there.
-    fn append(&mut self, record: Record) -> Result<(), MemoryError<F::Error>> {
+    fn append(&mut self, record: &Record) -> Result<(), MemoryError<F::Error>> {
         let number = self.latest.map_or(0, |(_, latest)| latest.number.wrapping_add(1));
-        let record = Record { number, ..record };
+        let record = Record { number, ..*record };
+        let bytes = record.to_bytes();
         let mut after = self.latest.map(|(at, _)| at + STEP);
         for _ in 0..TRIES {
             let at = self.room(after)?;
-            self.flash.write(at, &record.to_bytes()).map_err(MemoryError::Flash)?;
-            if self.read(at)? == record.to_bytes() {
+            self.flash.write(at, &bytes).map_err(MemoryError::Flash)?;
+            if self.read(at)? == bytes {
                 self.latest = Some((at, record));
                 return Ok(());
             }

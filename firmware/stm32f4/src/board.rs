@@ -132,8 +132,8 @@ async fn begin(
     let spawner = unsafe { Spawner::for_current_executor().await };
     let Start { config, kept, keeping } = start;
     let mut core = BoardCore::new(config, shell::now(), kept);
-    if let Some(settings) = keeping.settings() {
-        core.restore(&settings);
+    if let Some(kept) = keeping.kept() {
+        core.restore(kept);
     }
     core.remember(keeping.report());
     let shell = SHELL.init(Shell::new(core, actuators, keeping));

@@ -1,22 +1,25 @@
 //! The flash behind what outlives power: sectors 1 and 2, 16 KiB each, which the linker script keeps free of code.
 //!
-//! Erasing halts the processor for up to 0.8 s, because code runs from the same flash. It happens at the start and while settings are
+//! Erasing halts the processor for up to 0.8 s, because code runs from the same flash. It happens at the start and while something is
 //! stored, with everything off; the watchdog is told before, and the clock stopped and set right.
 
-use crate::{standstill, supervisor};
+use crate::{
+    board::{HEATERS, SERVOS},
+    standstill, supervisor,
+};
 use embassy_stm32::{
     Peri,
     flash::{Bank1Region1, Blocking, Flash},
     peripherals::FLASH,
 };
 use zygote_parts::Memory;
-use zygote_protocol::{MemoryReport, MemoryState, Settings};
+use zygote_protocol::{Kept, MemoryReport, MemoryState};
 
 /// Where sector 1 begins, counted from the start of the flash.
 const SECTORS: u32 = 0x4000;
 
 /// What outlives power; `None` where the flash can't be used.
-pub(crate) struct Keeping(Option<Memory<Bank1Region1<'static, Blocking>>>);
+pub(crate) struct Keeping(Option<Memory<Bank1Region1<'static, Blocking>, HEATERS, SERVOS>>);
 
 impl Keeping {
     /// Finds the latest record.
@@ -32,9 +35,9 @@ impl Keeping {
         said(standstill::through(|| memory.count_start(first)))
     }
 
-    /// The settings that were kept.
-    pub(crate) fn settings(&self) -> Option<Settings> {
-        said(self.0.as_ref()?.settings()).flatten()
+    /// Settings and calibrations.
+    pub(crate) fn kept(&self) -> Option<Kept<HEATERS, SERVOS>> {
+        said(self.0.as_ref()?.kept()).flatten()
     }
 
     /// What was found, for a host that asks.
@@ -43,11 +46,11 @@ impl Keeping {
         self.0.as_ref().map_or(unusable, Memory::report)
     }
 
-    /// Keeps settings; whether that is done. Nothing may be energised.
-    pub(crate) fn keep(&mut self, settings: &Settings) -> bool {
+    /// Keeps this; whether that is done. Nothing may be energised.
+    pub(crate) fn keep(&mut self, kept: &Kept<HEATERS, SERVOS>) -> bool {
         let Some(memory) = &mut self.0 else { return false };
         supervisor::be_patient();
-        let kept = said(standstill::through(|| memory.keep(settings))).is_some();
+        let kept = said(standstill::through(|| memory.keep(kept))).is_some();
         supervisor::be_strict();
         kept
     }

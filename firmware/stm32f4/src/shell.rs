@@ -55,8 +55,8 @@ impl Shell {
             let result = verb(core);
             actuators.apply(core.outputs());
             dead_man::set(core.dead_line());
-            if let Some(settings) = core.to_store() {
-                let is_stored = keeping.keep(settings);
+            if let Some(kept) = core.to_store() {
+                let is_stored = keeping.keep(kept);
                 core.stored(is_stored);
             }
             let changes = core.changes();

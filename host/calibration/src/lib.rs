@@ -1,4 +1,4 @@
-//! Calibration of shape-memory hinges: which pulses to drive, and what the readings say of the hinge.
+//! Calibration of shape-memory hinges: which pulses to drive, and what the readings say of the hinge. Servo hinges are in [`servo`].
 //!
 //! The mathematics alone: no port, no clock, no file. A caller asks [`next`] what to do, does it, adds what it read to the
 //! [`Record`], and asks again until [`Next::Done`]; then [`fit`] gives every parameter a 95 % interval, or says why the data
@@ -24,6 +24,7 @@ mod picture;
 mod pulse_plan;
 mod record;
 mod residuals;
+pub mod servo;
 mod sighting;
 mod solve;
 mod space;

@@ -12,19 +12,19 @@ const CURVES: (f64, f64) = (330.0, 30.0);
 const MISSES: (f64, f64) = (510.0, 380.0);
 
 /// A linear scale from values to pixels.
-struct Scale {
-    values: (f64, f64),
-    pixels: (f64, f64),
+pub(crate) struct Scale {
+    pub(crate) values: (f64, f64),
+    pub(crate) pixels: (f64, f64),
 }
 
 impl Scale {
-    fn at(&self, value: f64) -> f64 {
+    pub(crate) fn at(&self, value: f64) -> f64 {
         let share = (value - self.values.0) / (self.values.1 - self.values.0);
         self.pixels.0 + share * (self.pixels.1 - self.pixels.0)
     }
 
     /// Round values, some six of them.
-    fn ticks(&self) -> Vec<f64> {
+    pub(crate) fn ticks(&self) -> Vec<f64> {
         let raw = (self.values.1 - self.values.0) / 6.0;
         let decade = 10_f64.powf(raw.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].iter().map(|m| m * decade).find(|step| *step >= raw).unwrap_or(raw);

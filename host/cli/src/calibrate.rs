@@ -1,11 +1,13 @@
-//! `zygote calibrate`: measures the shape-memory hinges of a rig, at a board or on the simulator, and writes what they are like.
+//! `zygote calibrate`: measures the shape-memory hinges of a rig, at a board or on the simulator, and writes what they are like. Servos
+//! are [`calibrate_servo`]'s.
 
+use crate::board_calibrations::teach;
 use crate::calibration_progress::Display;
 use crate::calibration_table::{essential, hinge_of, table};
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
 use crate::paced_line::PacedLine;
-use crate::{calibration_json, calibration_report, identity, input, interrupt};
+use crate::{calibrate_servo, calibration_json, calibration_report, identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -13,13 +15,13 @@ use std::sync::atomic::Ordering;
 use zygote_calibration::Fit;
 use zygote_controller::calibrate::{self, Calibration, Hinge, Measured};
 use zygote_controller::{SerialTransport, Session, Transport};
-use zygote_deployment::{CalibratedHinge, CalibrationVerdict, Drive, Fitting, Rig};
+use zygote_deployment::{CalibratedHinge, CalibrationVerdict, Drive, Fitting, Kind, Rig};
 use zygote_protocol::Millis;
 
 /// How long an answer to the hello is waited for.
-const HELLO_PATIENCE: Millis = Millis(2_000);
+pub(crate) const HELLO_PATIENCE: Millis = Millis(2_000);
 /// Session, first run and boot of the simulator, so that every run is the same.
-const SIMULATED: u32 = 1;
+pub(crate) const SIMULATED: u32 = 1;
 
 /// Arguments of `zygote calibrate`.
 #[derive(Args)]
@@ -27,53 +29,58 @@ const SIMULATED: u32 = 1;
 pub(crate) struct Arguments {
     /// The rig
     #[arg(long, value_name = "RIG.toml")]
-    rig: PathBuf,
+    pub(crate) rig: PathBuf,
     #[command(flatten)]
-    target: Target,
+    pub(crate) target: Target,
     #[command(flatten)]
-    which: Which,
+    pub(crate) which: Which,
+    #[command(flatten)]
+    pub(crate) servo: calibrate_servo::Options,
     /// The plan whose hinges are on the rig; without it every heater is taken for a hinge
     #[arg(long, value_name = "PLAN.fold")]
     plan: Option<PathBuf>,
     /// What is known of the hinges [default: calibration.toml beside the rig file]
     #[arg(short, long, value_name = "FILE.toml")]
-    output: Option<PathBuf>,
+    pub(crate) output: Option<PathBuf>,
     /// Go on with a calibration that was interrupted
     #[arg(long, conflicts_with = "restart")]
-    resume: bool,
+    pub(crate) resume: bool,
     /// Forget a calibration that was interrupted
     #[arg(long)]
-    restart: bool,
+    pub(crate) restart: bool,
     /// Leave the safe state of an earlier fault or stop: you have looked at the rig
     #[arg(long)]
-    clear: bool,
+    pub(crate) clear: bool,
     /// Print what was calibrated as JSON
     #[arg(long)]
-    json: bool,
+    pub(crate) json: bool,
 }
 
 /// Where the rig is.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
-struct Target {
+pub(crate) struct Target {
     /// Serial port of the board
     #[arg(long, value_name = "DEV")]
-    port: Option<String>,
+    pub(crate) port: Option<String>,
     /// Simulated board, in virtual time
     #[arg(long)]
-    sim: bool,
+    pub(crate) sim: bool,
 }
 
 /// Which hinges.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
-struct Which {
+pub(crate) struct Which {
     /// A hinge of this number; may be given more than once
     #[arg(long, value_name = "HINGE")]
     hinge: Vec<usize>,
     /// Every shape-memory hinge, as many at once as the supply allows
     #[arg(long)]
     all: bool,
+    /// A servo hinge of this number, whose angle you read at each pulse; may be given more than once
+    #[arg(long, value_name = "HINGE")]
+    pub(crate) servo: Vec<usize>,
 }
 
 /// The files of a calibration.
@@ -89,6 +96,9 @@ struct Files {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (rig, _) = input::rig_as_written(&arguments.rig)?;
     let fittings = fittings(arguments, &rig)?;
+    if !arguments.which.servo.is_empty() {
+        return calibrate_servo::run(arguments, &rig, &fittings);
+    }
     let result = arguments.output.clone().unwrap_or_else(|| arguments.rig.with_file_name("calibration.toml"));
     let files = Files {
         records: result.with_extension("records.json"),
@@ -140,7 +150,9 @@ fn hinges<T: Transport>(
             Ok(Hinge::new(number, *channel, *settings, &info.ceiling))
         }
         Some(Fitting { drive, .. }) => {
-            Err(anyhow!("--hinge {number}: expected a shape-memory hinge, found a {}", drive.kind().name()))
+            let servo = if drive.kind() == Kind::Servo { "; for servos there is --servo" } else { "" };
+            let kind = drive.kind().name();
+            Err(anyhow!("--hinge {number}: expected a shape-memory hinge, found a {kind}{servo}"))
         }
         None => Err(anyhow!("--hinge {number}: expected a hinge of the rig, 0 to {}", fittings.len() - 1)),
     };
@@ -181,7 +193,7 @@ fn earlier(arguments: &Arguments, files: &Files) -> Result<Option<Measured>, Fai
 }
 
 /// What the result's file says already.
-fn known(path: &Path, rig: &Rig) -> Result<Option<zygote_deployment::Calibration>, Failure> {
+pub(crate) fn known(path: &Path, rig: &Rig) -> Result<Option<zygote_deployment::Calibration>, Failure> {
     let name = path.display().to_string();
     match std::fs::read_to_string(path) {
         Ok(text) => {
@@ -255,7 +267,13 @@ fn measure<T: Transport>(
         say(table(&calibrated));
         say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
     }
-    judge(&calibrated)
+    let taught = teach(&mut session, rig, &files.result, &result);
+    judge(&calibrated)?;
+    let taught = taught?;
+    if !arguments.json {
+        say(taught);
+    }
+    Ok(())
 }
 
 fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {

@@ -54,6 +54,7 @@ fn of_hinge(hinge: &CalibratedHinge, unlike: &[String]) -> Result<Value, Calibra
         "ambient": hinge.ambient,
         "residuals": hinge.residuals,
         "values": values,
+        "servo": hinge.servo,
         "unlike_the_others": unlike,
     }))
 }

@@ -7,7 +7,7 @@ use zygote_calibration::{Fit, picture};
 use zygote_controller::calibrate::Hinge;
 use zygote_deployment::{Calibrated, CalibratedHinge, Rig};
 
-const STYLE: &str = "body{font:15px sans-serif;max-width:64em;margin:2em auto;padding:0 1em}\
+pub(crate) const STYLE: &str = "body{font:15px sans-serif;max-width:64em;margin:2em auto;padding:0 1em}\
     table{border-collapse:collapse;font-size:14px}td,th{padding:.2em .7em;text-align:right;border-bottom:1px solid #ddd}\
     .unlike{background:#fd9}.failed{color:#b00}summary{cursor:pointer;margin:.6em 0}";
 
@@ -90,6 +90,6 @@ fn values(html: &mut String, hinge: &CalibratedHinge) {
     html.push_str("</table>\n");
 }
 
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

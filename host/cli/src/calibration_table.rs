@@ -78,6 +78,7 @@ pub(crate) fn hinge_of(hinge: &Hinge, fit: &Fit, date: &str, firmware: &str) -> 
         ambient: ambient_c.map(|celsius| format!("{celsius:.2} degC")),
         residuals,
         values,
+        servo: None,
     }
 }
 
@@ -170,6 +171,7 @@ mod tests {
             ambient: None,
             residuals: BTreeMap::new(),
             values: BTreeMap::from([(key(Quantity::HeaterResistance), known)]),
+            servo: None,
         }
     }
 

@@ -1,8 +1,13 @@
 //! `zygote deploy`: runs a plan's schedule, or the way back, on a board or on the simulator, and reports.
 
+mod shown;
+
+pub(crate) use shown::{Port, Simulator};
+
 use crate::failure::{Failure, OrFail};
 use crate::output::{LateFile, say, write_file};
 use crate::recording_file::{self, RecordingFile};
+use crate::view::{self, SceneOf};
 use crate::{drift, identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
@@ -12,12 +17,13 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use zygote_controller::{
-    DeployError, Deployment, EarlierRun, EventLog, MotionState, Progress, RunReport, SerialTransport,
-    Session, Sightings, Transport, deploy,
+    DeployError, Deployment, DriftError, EarlierRun, EventLog, MotionState, Progress, RunReport,
+    SerialTransport, Session, Sightings, Transport, Wish, deploy,
 };
 use zygote_deployment::{Direction, Kind, Rig, Schedule};
+use zygote_live::{Choice, Hub};
 use zygote_protocol::Millis;
-use zygote_recording::Job;
+use zygote_recording::Job as Recorded;
 use zygote_rehearsal::scenario::table;
 use zygote_rehearsal::{Ending, Scenario, Stage, Trial};
 use zygote_stacking::Plan;
@@ -71,61 +77,178 @@ pub(crate) struct Arguments {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    shown: shown::Shown,
 }
 
 /// Where to run.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
-struct Target {
+pub(crate) struct Target {
     /// Serial port of the board
     #[arg(long, value_name = "DEV")]
-    port: Option<String>,
+    pub(crate) port: Option<String>,
     /// Simulated board, in virtual time
     #[arg(long)]
-    sim: bool,
+    pub(crate) sim: bool,
 }
 
-/// What is to be run.
-struct Order<'a> {
-    arguments: &'a Arguments,
-    plan: &'a Plan,
-    rig: &'a Rig,
-    rig_text: &'a str,
-    schedule: &'a Schedule,
-    open: &'a BTreeSet<usize>,
+/// A run with its files.
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
+pub(crate) struct Job {
+    plan_path: PathBuf,
+    rig_path: PathBuf,
+    schedule_path: Option<PathBuf>,
+    pub(crate) plan: Plan,
+    pub(crate) rig: Rig,
+    rig_text: String,
+    pub(crate) schedule: Schedule,
+    /// Hinges that an earlier run has moved.
+    pub(crate) open: BTreeSet<usize>,
+    clear: bool,
+    scenario: Option<PathBuf>,
+    log: Option<PathBuf>,
+    report: Option<PathBuf>,
+    record: Option<PathBuf>,
+    json: bool,
+    simulated: bool,
+    any_board: bool,
+}
+
+impl Job {
+    /// A run whose files stand beside it.
+    pub(crate) fn new(
+        plan_path: &Path,
+        rig_path: &Path,
+        schedule_path: Option<&Path>,
+        simulated: bool,
+    ) -> Result<Self, Failure> {
+        let plan = input::plan(plan_path)?;
+        let (rig, rig_text) = input::rig_with_text(rig_path)?;
+        let schedule = input::run(plan_path, &plan, &rig, schedule_path)?;
+        Ok(Self {
+            plan_path: plan_path.to_owned(),
+            rig_path: rig_path.to_owned(),
+            schedule_path: schedule_path.map(Path::to_owned),
+            plan,
+            rig,
+            rig_text,
+            schedule,
+            open: BTreeSet::new(),
+            clear: false,
+            scenario: None,
+            log: None,
+            report: None,
+            record: None,
+            json: false,
+            simulated,
+            any_board: false,
+        })
+    }
+
+    fn of(arguments: &Arguments) -> Result<Self, Failure> {
+        let Arguments { plan, rig, target, schedule, .. } = arguments;
+        let job = Self::new(plan, rig, schedule.as_deref(), target.sim)?;
+        let open = opened_before(arguments, &job.schedule)?;
+        Ok(Self {
+            open,
+            clear: arguments.clear,
+            scenario: arguments.scenario.clone(),
+            log: arguments.log.clone(),
+            report: arguments.report.clone(),
+            record: arguments.record.clone(),
+            json: arguments.json,
+            any_board: arguments.calibrated_at_another_board,
+            ..job
+        })
+    }
+
+    /// The file that says what is run.
+    fn file(&self) -> &Path {
+        self.schedule_path.as_ref().unwrap_or(&self.plan_path)
+    }
+
+    /// Its name.
+    pub(crate) fn name(&self) -> String {
+        name(self.file()).to_owned()
+    }
+
+    /// As it stands among others.
+    pub(crate) fn choice(&self) -> Choice {
+        #[expect(clippy::cast_precision_loss, reason = "a makespan is far below 2^52 ms")]
+        let expected_s = self.schedule.makespan.0 as f64 / 1e3;
+        let (hinges, direction) = (self.schedule.steps.len(), self.schedule.direction());
+        Choice { file: self.name(), hinges, direction, expected_s }
+    }
+
+    /// What the page shows of it.
+    pub(crate) fn scene(&self, number: usize) -> Result<Vec<u8>, Failure> {
+        let (schedule, rig) = (Some(&self.schedule), Some(&self.rig));
+        SceneOf { path: &self.plan_path, plan: &self.plan, schedule, rig }.of_run(view::Run::Live { number })
+    }
+
+    /// The simulator with this on it, and with what has gone wrong in it.
+    pub(crate) fn trial(&self) -> Result<Trial, Failure> {
+        let standing = standing(&self.schedule, &self.open);
+        match &self.scenario {
+            None => Trial::new(self.rig.clone(), standing).or_bad_input(),
+            Some(path) => {
+                Scenario::open(path).or_bad_input()?.trial_of(self.rig.clone(), standing).or_bad_input()
+            }
+        }
+    }
+}
+
+/// A run, or what is left of it.
+pub(crate) struct Order<'a> {
+    pub(crate) job: &'a Job,
+    pub(crate) open: &'a BTreeSet<usize>,
+    /// The file that was named for the recording is for the first part of a run.
+    pub(crate) first: bool,
+}
+
+/// Who watches a run.
+pub(crate) struct Attendance<'a> {
+    /// Asked often: does the user want to stop?
+    pub(crate) interrupted: &'a dyn Fn() -> bool,
+    /// People at pages, who arm and start it as well.
+    pub(crate) hub: Option<&'a Hub>,
 }
 
 /// Runs; succeeds only when every hinge is at its angle.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let plan = &input::plan(&arguments.plan)?;
-    let (rig, rig_text) = &input::rig_with_text(&arguments.rig)?;
-    let schedule = &input::run(&arguments.plan, plan, rig, arguments.schedule.as_deref())?;
-    let open = &opened_before(arguments, schedule)?;
-    let order = Order { arguments, plan, rig, rig_text, schedule, open };
-    if let Some(device) = &arguments.target.port {
-        let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
-        let (report, _) = order.run_on(transport, identity::fresh(), &|| false)?;
-        return judge(&report);
+    arguments.shown.check()?;
+    let job = Job::of(arguments)?;
+    let interrupted = interrupt::flag()?;
+    let stops = || interrupted.load(Ordering::Relaxed);
+    if arguments.shown.view {
+        return shown::run(arguments, job, &stops);
     }
-    let standing = standing(schedule, open);
+    if let Some(device) = &arguments.target.port {
+        let transport = SerialTransport::open(device, job.rig.link.baud).or_bad_input()?;
+        return judge(&job.run_on(transport, identity::fresh(), &stops)?);
+    }
+    let trial = job.trial()?;
+    let mut stage = trial.open().or_bad_input()?;
+    let user_stops = stage.user_stops();
+    let ending = job.run_on(&mut stage, SIMULATED, &|| stops() || user_stops.get());
     let Some(path) = &arguments.scenario else {
-        let trial = Trial::new(rig.clone(), standing).or_bad_input()?;
-        let mut stage = trial.open().or_bad_input()?;
-        let (report, _) = order.run_on(&mut stage, SIMULATED, &|| false)?;
-        let truth = true_angles(&stage, schedule, arguments.json);
+        let report = ending?;
+        let truth = true_angles(&stage, &job.schedule, arguments.json);
         judge(&report)?;
         return truth;
     };
-    let scenario = Scenario::open(path).or_bad_input()?;
-    let trial = scenario.trial_of(rig.clone(), standing).or_bad_input()?;
-    let mut stage = trial.open().or_bad_input()?;
-    let stops = stage.user_stops();
-    let ending = match order.run_on(&mut stage, SIMULATED, &|| stops.get()) {
-        Ok((report, _)) => Ending::Report(Box::new(report)),
+    let ending = match ending {
+        Ok(report) => Ending::Report(Box::new(report)),
         Err(Failure::Failed(error)) => Ending::Refused(format!("{error:#}")),
         Err(bad_input @ Failure::BadInput(_)) => return Err(bad_input),
     };
-    let verdict = scenario.judge(&trial, &trial.close(stage, ending).or_failed()?);
+    judge_scenario(&Scenario::open(path).or_bad_input()?, &trial, stage, ending)
+}
+
+/// The verdict on a run in which something went wrong.
+fn judge_scenario(scenario: &Scenario, trial: &Trial, stage: Stage, ending: Ending) -> Result<(), Failure> {
+    let verdict = scenario.judge(trial, &trial.close(stage, ending).or_failed()?);
     say(table(std::slice::from_ref(&verdict)));
     if verdict.holds() {
         Ok(())
@@ -154,40 +277,66 @@ fn standing(schedule: &Schedule, open: &BTreeSet<usize>) -> Schedule {
     standing
 }
 
-impl Order<'_> {
-    /// Runs on a line and writes log, recording and report; gives the line back.
+impl Job {
+    /// Runs on a line that is opened for it.
     fn run_on<T: Transport>(
         &self,
         transport: T,
         number: u32,
-        stops: &dyn Fn() -> bool,
-    ) -> Result<(RunReport, T), Failure> {
-        let &Self { arguments, rig, schedule, open, .. } = self;
-        let of = arguments.schedule.as_ref().unwrap_or(&arguments.plan);
-        let RecordingFile { mut recorder, path: recording_path } =
-            RecordingFile::new(&self.recorded(), arguments.record.as_ref(), of)?;
-        let interrupted = interrupt::flag()?;
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<RunReport, Failure> {
         let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
-        let log_path = beside(arguments.log.as_ref(), of, "events.jsonl");
+        let order = Order { job: self, open: &self.open, first: true };
+        let (report, kept) = order.perform(&mut session, number, &Attendance { interrupted, hub: None })?;
+        kept.map(|()| report)
+    }
+}
+
+impl Order<'_> {
+    /// Runs in a session and writes log, recording and report; gives the report, and whether all of them are whole.
+    pub(crate) fn perform<T: Transport>(
+        &self,
+        session: &mut Session<T>,
+        number: u32,
+        attendance: &Attendance<'_>,
+    ) -> Result<(RunReport, Result<(), Failure>), Failure> {
+        let &Self { job, open, first } = self;
+        let (schedule, of) = (&job.schedule, job.file());
+        let asked = job.record.as_ref().filter(|_| first);
+        let RecordingFile { mut recorder, path: recording_path } =
+            RecordingFile::new(&self.recorded(), asked, of)?;
+        let log_path = beside(job.log.as_ref(), of, "events.jsonl");
+        let mut pages = attendance.hub;
         let mut sightings = Sightings::default();
         let mut log = EventLog::new(BufWriter::new(LateFile::new(log_path.clone())))
             .observed_by(&mut recorder)
             .observed_by(&mut sightings);
+        if let Some(hub) = &mut pages {
+            log = log.observed_by(hub);
+        }
+        let wish = |moment| attendance.hub.map_or(Wish::GoOn, |hub| hub.wish(moment));
         let deployment = Deployment {
             schedule,
-            rig,
+            rig: &job.rig,
             run: number,
             open,
-            clear: arguments.clear,
+            clear: job.clear && first,
             // What the simulator heats can't be harmed.
-            any_board: arguments.calibrated_at_another_board || arguments.target.sim,
-            interrupted: &|| interrupted.load(Ordering::Relaxed) || stops(),
+            any_board: job.any_board || job.simulated,
+            interrupted: attendance.interrupted,
+            steer: attendance.hub.is_some().then_some(&wish),
         };
         let bar = progress_bar(schedule.steps.len() - open.len());
-        let outcome = deploy(&mut session, &deployment, &mut log, &mut |progress| show(&bar, progress));
+        let outcome = deploy(session, &deployment, &mut log, &mut |progress| {
+            show(&bar, progress);
+            if let Some(hub) = attendance.hub {
+                hub.look(progress);
+            }
+        });
         bar.finish_and_clear();
         let log_error = log.error().map(ToString::to_string);
         drop(log);
+        let rig = &job.rig;
         let outcome = outcome.map(|report| {
             let drift =
                 rig.calibrated_by.as_ref().map(|known| sightings.drift(rig, known, schedule.steps.len()));
@@ -199,44 +348,54 @@ impl Order<'_> {
         });
         let recorded = recorder.finish(outcome.as_ref().ok().map(|(report, _)| report));
         let (report, not_compared) = outcome.map_err(refused)?;
-        let report_path = beside(arguments.report.as_ref(), of, "report.json");
-        let json = serde_json::to_vec_pretty(&report).or_failed()?;
-        write_file(&report_path, &json)?;
-        if arguments.json {
+        let kept = self.keep(&report, not_compared, &log_path, &recording_path).and_then(|()| {
+            whole(&log_path, "log", log_error)?;
+            whole(&recording_path, "recording", recorded.err().map(|error| error.to_string()))
+        });
+        Ok((report, kept))
+    }
+
+    /// Writes the report, and tells it.
+    fn keep(
+        &self,
+        report: &RunReport,
+        not_compared: Option<DriftError>,
+        log: &Path,
+        recording: &Path,
+    ) -> Result<(), Failure> {
+        let job = self.job;
+        let path = beside(job.report.as_ref(), job.file(), "report.json");
+        let json = serde_json::to_vec_pretty(report).or_failed()?;
+        write_file(&path, &json)?;
+        if job.json {
             say(String::from_utf8_lossy(&json));
         } else {
-            say(&report);
-            let again = drift::command(&arguments.rig, &report.drift);
+            say(report);
+            let again = drift::command(&job.rig_path, &report.drift);
             if !again.is_empty() {
                 say(format_args!("to calibrate them: {again}"));
             }
             if let Some(error) = not_compared {
                 say(format_args!("the hinges aren't held against their calibration: {error}"));
             }
-            say(format_args!(
-                "report: {}\nevents: {}\nrecording: {}",
-                report_path.display(),
-                log_path.display(),
-                recording_path.display()
-            ));
+            let (path, log, recording) = (path.display(), log.display(), recording.display());
+            say(format_args!("report: {path}\nevents: {log}\nrecording: {recording}"));
         }
-        whole(&log_path, "log", log_error)?;
-        whole(&recording_path, "recording", recorded.err().map(|error| error.to_string()))?;
-        Ok((report, session.into_transport()))
+        Ok(())
     }
 
     /// What the recording tells of it. On the simulator nothing of it depends on the wall clock.
-    fn recorded(&self) -> Job<'_> {
-        let &Self { arguments, plan, rig_text, schedule, open, .. } = self;
-        Job {
-            plan,
-            plan_file: name(&arguments.plan),
-            rig: rig_text,
-            rig_file: name(&arguments.rig),
-            schedule,
+    fn recorded(&self) -> Recorded<'_> {
+        let &Self { job, open, .. } = self;
+        Recorded {
+            plan: &job.plan,
+            plan_file: name(&job.plan_path),
+            rig: &job.rig_text,
+            rig_file: name(&job.rig_path),
+            schedule: &job.schedule,
             open,
-            scenario: arguments.scenario.as_deref().map(name),
-            started: (!arguments.target.sim).then(recording_file::now),
+            scenario: job.scenario.as_deref().map(name),
+            started: (!job.simulated).then(recording_file::now),
         }
     }
 }

@@ -105,6 +105,7 @@ fn run(
         clear: false,
         any_board: false,
         interrupted: &|| interrupted(asked.replace(asked.get() + 1)),
+        steer: None,
     };
     let report = deploy(&mut session, &deployment, &mut EventLog::new(io::sink()), &mut |_| {});
     (report, session.into_transport())
@@ -158,6 +159,7 @@ fn a_stopped_board_wants_a_person_before_the_next_run() {
         clear: false,
         any_board: false,
         interrupted: &|| false,
+        steer: None,
     };
     let mut log = EventLog::new(io::sink());
     let refused = deploy(&mut session, &deployment, &mut log, &mut |_| {});
@@ -267,6 +269,7 @@ fn the_log_tells_events_in_host_time_and_the_report_the_rate_of_the_clock() {
         any_board: false,
         open: &BTreeSet::new(),
         interrupted: &|| false,
+        steer: None,
     };
     let report = deploy(&mut session, &deployment, &mut event_log, &mut |_| {}).unwrap();
     let clock = report.clock.unwrap();

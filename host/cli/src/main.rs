@@ -2,7 +2,9 @@
 
 mod alternatives;
 mod assembly;
+mod board_calibrations;
 mod calibrate;
+mod calibrate_servo;
 mod calibration_json;
 mod calibration_progress;
 mod calibration_report;
@@ -25,6 +27,7 @@ mod interrupt;
 #[cfg(test)]
 mod line_tests;
 mod link;
+mod live;
 mod net;
 mod noisy_line;
 mod output;
@@ -40,6 +43,9 @@ mod replay;
 mod report;
 mod schedule;
 mod sequence;
+mod serve;
+mod servo_protractor;
+mod servo_report;
 mod settings;
 mod sim;
 mod table;

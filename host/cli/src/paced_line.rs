@@ -57,6 +57,11 @@ impl PacedLine {
         Self { board, byte_ns, to_board, to_host, arrived: VecDeque::new() }
     }
 
+    /// The board at its other end.
+    pub(crate) fn board(&self) -> &Board {
+        &self.board
+    }
+
     /// Lets the board take what has arrived and say what it has to say.
     fn exchange(&mut self) {
         let now = self.board.now();

@@ -1,8 +1,8 @@
 //! `zygote settings`: what a board keeps over power cycles, and lowering its limits for the rig at hand (S13).
 
 use crate::failure::{Failure, OrFail};
-use crate::identity;
 use crate::output::say;
+use crate::{board_calibrations, identity};
 use clap::Args;
 use serde_json::{Value, json};
 use zygote_controller::{SerialTransport, Session};
@@ -44,6 +44,9 @@ pub(crate) struct Arguments {
     /// Start from what is compiled into the board, not from what is in force
     #[arg(long)]
     reset: bool,
+    /// Forget what was calibrated of every heater and servo
+    #[arg(long)]
+    forget_calibrations: bool,
     /// Print as JSON
     #[arg(long)]
     json: bool,
@@ -58,7 +61,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if wanted != before.in_force {
         session.configure(wanted).or_failed()?;
     }
+    if arguments.forget_calibrations {
+        let known = board_calibrations::of(&mut session).or_failed()?;
+        session
+            .calibrate(&known.iter().map(board_calibrations::forgotten).collect::<Vec<_>>())
+            .or_failed()?;
+    }
     let after = session.settings().or_failed()?;
+    let calibrations = board_calibrations::of(&mut session).or_failed()?;
     let memory = session.memory().or_failed()?;
     if arguments.json {
         say(format_args!(
@@ -66,11 +76,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             json!({
                 "in_force": value(&after.in_force),
                 "compiled": value(&after.compiled),
+                "calibrations": calibrations.iter().map(board_calibrations::value).collect::<Vec<_>>(),
                 "memory": { "state": state(memory.state), "damaged_records": memory.damaged },
             })
         ));
     } else {
         say(table(&after));
+        calibrations.iter().map(board_calibrations::line).for_each(say);
         say(told(memory));
     }
     Ok(())

@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use crate::{
     alternatives, assembly, calibrate, check, deploy, drift, explain, export, flash, fold_back, hil, link,
-    net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, settings, sim, table,
-    tolerance, torque, view,
+    net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, serve, settings, sim,
+    table, tolerance, torque, view,
 };
 use clap::Subcommand;
 
@@ -35,7 +35,7 @@ pub(crate) enum Verb {
     Picture(picture::Arguments),
     /// Show a plan in the browser: the way from stack to shape, panel by panel
     View(view::Arguments),
-    /// Write a plan as a file of another program: an animated scene
+    /// Write a plan as files for a workshop: bodies to print, sheets to cut, bill, assembly pages, net, scenes
     Export(export::Arguments),
     /// Run a plan's schedule backwards: what folds the shape up again, with servos alone
     Fold(fold_back::Arguments),
@@ -45,6 +45,8 @@ pub(crate) enum Verb {
     Deploy(deploy::Arguments),
     /// Tell which hinges of a recorded run aren't as they were calibrated
     Drift(drift::Arguments),
+    /// Serve a page from which runs are chosen, armed, started, paused and stopped
+    Serve(serve::Arguments),
     /// Run scenario files: deployments on the simulator with something going wrong, judged
     Rehearse(rehearse::Arguments),
     /// Tell a recorded run again: what happened when, and how it ended
@@ -87,6 +89,7 @@ impl Verb {
             Self::Settings(arguments) => settings::run(&arguments),
             Self::Hil(arguments) => hil::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Serve(arguments) => serve::run(&arguments),
             Self::Rehearse(arguments) => rehearse::run(&arguments),
             Self::Replay(arguments) => replay::run(&arguments),
             Self::Report(arguments) => report::run(&arguments),

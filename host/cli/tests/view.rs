@@ -72,3 +72,51 @@ fn without_a_browser_no_picture_is_written() {
     assert!(run.errors.contains("needs a schedule"), "{}", run.errors);
     assert!(!place.files().contains(&"i.png".to_owned()));
 }
+
+/// A plan with its schedule, and a run of it that was recorded.
+fn with_recording(name: &str) -> (Scratch, String) {
+    let place = with_plans(name);
+    let rig = model("rigs/servo-160.toml");
+    for arguments in [
+        &["schedule", "i.fold", "--rig", &rig][..],
+        &["deploy", "i.fold", "--rig", &rig, "--sim", "--record", "i.mcap"],
+    ] {
+        let run = place.zygote(arguments);
+        assert_eq!(run.code, 0, "{}", run.errors);
+    }
+    (place, rig)
+}
+
+#[test]
+fn a_run_that_cannot_be_shown_is_refused_before_anything_moves() {
+    let (place, rig) = with_recording("view_runs");
+    let taken = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
+    let port = taken.local_addr().expect("it has one").port().to_string();
+    let files = place.files();
+    let refused = |arguments: &[&str], said: &str| {
+        let run = place.zygote(arguments);
+        assert_eq!(run.code, 2, "{arguments:?}: {}", run.errors);
+        assert!(run.errors.contains(said), "{arguments:?}: {}", run.errors);
+        assert_eq!(place.files(), files);
+    };
+    let told = format!("port {port} of this computer can't be used; leave out --view-port");
+    refused(&["deploy", "i.fold", "--rig", &rig, "--sim", "--view", "--view-port", &port], &told);
+    refused(&["serve", "i.fold", "--rig", &rig, "--sim", "--view-port", &port], &told);
+    refused(&["replay", "i.mcap", "--view", "--view-port", &port], &told);
+    refused(&["deploy", "i.fold", "--rig", &rig, "--sim", "--pace", "5"], "--pace needs --view");
+    refused(&["deploy", "i.fold", "--rig", &rig, "--sim", "--yes"], "--view");
+    refused(&["deploy", "i.fold", "--rig", &rig, "--sim", "--view", "--pace", "0"], "0.01 to 10000");
+    refused(&["serve", "l.fold", "--rig", &rig, "--sim"], "there is nothing to run");
+    refused(&["serve", "i.mcap", "--rig", &rig, "--sim"], "i.mcap: cannot be read");
+    refused(&["replay", "i.mcap", "--plan", "l.fold"], "i.mcap: is of plan");
+}
+
+#[test]
+fn a_schedule_is_served_with_its_plan_alone() {
+    let (place, rig) = with_recording("view_serve");
+    let run = place.zygote(&["fold", "i.fold", "--rig", &rig, "-o", "back.json"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let run = place.zygote(&["serve", "l.fold", "back.json", "--rig", &rig, "--sim"]);
+    assert_eq!(run.code, 2, "{}", run.errors);
+    assert!(run.errors.contains("which none of the plans named is"), "{}", run.errors);
+}

@@ -1,5 +1,7 @@
 //! Deploys a schedule: upload, check, arm, start, watch, and report whatever happens.
 
+mod steering;
+
 use crate::calibrate::chip_id;
 use crate::event_log::{EventLog, Record};
 use crate::inbox::Notice;
@@ -8,10 +10,11 @@ use crate::report::{Outcome, RunReport, complete};
 use crate::session::{RequestError, Session, SessionError};
 use crate::{MotionState, Transport};
 use std::collections::BTreeSet;
+pub use steering::{Moment, Wish};
 use zygote_deployment::{CalibratedAt, Fitting, Rig, RigError, Schedule};
 use zygote_protocol::{
-    CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Millis, Reply, RigId, State,
-    Step, Telemetry, program_crc,
+    CentiCelsius, Command, Event, EventKind, Fault, FaultCode, Limits, Micros, Milliamps, Millis, Millivolts,
+    Reply, RigId, State, Step, Telemetry, program_crc,
 };
 
 /// An MCU that was lost is waited for so long: a reset takes less.
@@ -95,6 +98,12 @@ pub struct Progress {
     pub total: usize,
     /// Hinges on their way, those that move before those that cool.
     pub motions: Vec<MotionState>,
+    /// MCU time of the look at the rig.
+    pub at: Micros,
+    /// Supply voltage.
+    pub supply: Millivolts,
+    /// Measured sum of currents.
+    pub current: Milliamps,
 }
 
 /// What to deploy, and how.
@@ -113,6 +122,8 @@ pub struct Deployment<'a> {
     pub any_board: bool,
     /// Asked often: does the user want to stop?
     pub interrupted: &'a dyn Fn() -> bool,
+    /// Asked often as well: what whoever attends the run wants. Without it, it is armed and started at once.
+    pub steer: Option<&'a dyn Fn(Moment) -> Wish>,
 }
 
 /// Runs a deployment to its end, whatever that is.
@@ -158,13 +169,22 @@ pub fn deploy<T: Transport>(
         return Err(DeployError::Recording { message });
     }
     let report = RunReport::new(run, schedule, &board, &firmware);
-    let mut watch = Watch { schedule, fittings, report, started: None, ended: None, finished: false, log };
-    if let Err(error) = start(session, run, rig_id, limits) {
-        // Perhaps it is armed; the error is what the user must know, not whether this last word got through.
-        session.stop().ok();
-        return Err(error.into());
-    }
-    let outcome = watch.until_the_end(session, deployment.interrupted, show);
+    let (started, ended, finished, quiet) = (None, None, false, false);
+    let attended = deployment.steer.is_some();
+    let mut watch = Watch { schedule, fittings, report, started, ended, finished, attended, quiet, log };
+    let begun = match deployment.steer {
+        None => start(session, run, rig_id, limits).map(|()| None),
+        Some(steer) => watch.until_started(session, deployment, steer, &(rig_id, limits), show),
+    };
+    let outcome = match begun {
+        Ok(None) => watch.until_the_end(session, deployment, show),
+        Ok(Some(early)) => early,
+        Err(error) => {
+            // Perhaps it is armed; the error is what the user must know, not whether this last word got through.
+            session.stop().ok();
+            return Err(error.into());
+        }
+    };
     let mut report = watch.settle(session, outcome);
     let moved: BTreeSet<_> = schedule.steps.iter().map(|step| step.hinge).collect();
     report.precede(RunReport::new(run, &whole.rest(&moved), &board, &firmware));
@@ -212,6 +232,11 @@ pub(crate) fn start<T: Transport>(
     limits: Limits,
 ) -> Result<(), RequestError> {
     session.request(Command::Arm { rig, limits, lifetime: ARM_LIFETIME })?;
+    start_only(session, run)
+}
+
+/// Starts what is armed.
+fn start_only<T: Transport>(session: &mut Session<T>, run: u32) -> Result<(), RequestError> {
     session.request(Command::Start { run }).map(|_| ())
 }
 
@@ -225,6 +250,10 @@ struct Watch<'a, 'o> {
     ended: Option<Micros>,
     /// The MCU says that every step is done.
     finished: bool,
+    /// A person starts it.
+    attended: bool,
+    /// There were no news the last time.
+    quiet: bool,
     log: &'a mut EventLog<'o>,
 }
 
@@ -233,27 +262,49 @@ impl Watch<'_, '_> {
     fn until_the_end<T: Transport>(
         &mut self,
         session: &mut Session<T>,
-        interrupted: &dyn Fn() -> bool,
+        deployment: &Deployment<'_>,
         show: &mut dyn FnMut(&Progress),
     ) -> Outcome {
         loop {
-            if interrupted() {
+            if (deployment.interrupted)() {
                 return self.stop(session);
             }
-            let notice = match session.notice(session.now().plus(WATCH)) {
-                Ok(notice) => notice,
-                Err(error) => return self.lost(session.now(), &error),
-            };
-            let now = session.now();
-            self.log.follow(session.clock().fit());
-            match notice {
-                None => {}
-                Some(Notice::Event(event)) => self.take_event(now, &event),
-                Some(Notice::Fault(fault)) => return self.take_fault(now, &fault),
-                Some(Notice::Telemetry(telemetry)) => show(&self.take_telemetry(now, &telemetry)),
+            if let Some(outcome) = deployment.steer.and_then(|steer| self.steered(session, steer)) {
+                return outcome;
+            }
+            if let Some(outcome) = self.listen(session, deployment.patience(), show) {
+                return outcome;
             }
             if self.finished {
                 return complete(self.report.direction);
+            }
+        }
+    }
+
+    /// Takes the next piece of news, waiting for it a while; gives how the run ended, where it did.
+    fn listen<T: Transport>(
+        &mut self,
+        session: &mut Session<T>,
+        patience: Millis,
+        show: &mut dyn FnMut(&Progress),
+    ) -> Option<Outcome> {
+        let notice = match session.notice(session.now().plus(patience)) {
+            Ok(notice) => notice,
+            Err(error) => return Some(self.lost(session.now(), &error)),
+        };
+        let now = session.now();
+        self.log.follow(session.clock().fit());
+        self.quiet = notice.is_none();
+        match notice {
+            None => None,
+            Some(Notice::Event(event)) => {
+                self.take_event(now, &event);
+                None
+            }
+            Some(Notice::Fault(fault)) => Some(self.take_fault(now, &fault)),
+            Some(Notice::Telemetry(telemetry)) => {
+                show(&self.take_telemetry(now, &telemetry));
+                None
             }
         }
     }
@@ -263,6 +314,9 @@ impl Watch<'_, '_> {
         match session.stop() {
             Ok(after) => {
                 self.log.add(session.now(), &Record::StopConfirmed { after_us: after.0 });
+                if self.attended {
+                    self.hear_the_rest(session);
+                }
                 Outcome::Stopped
             }
             Err(error) => self.lost(session.now(), &error),
@@ -292,6 +346,8 @@ impl Watch<'_, '_> {
                 match state {
                     State::Running => self.started = Some(event.at),
                     State::Finished | State::Safe => self.ended = Some(event.at),
+                    // Disarmed in the middle.
+                    State::Loaded if self.started.is_some() => self.ended = Some(event.at),
                     State::Idle | State::Loaded | State::Armed => {}
                 }
                 Record::State { mcu_us, state: format!("{state:?}").to_lowercase() }
@@ -354,6 +410,18 @@ impl Watch<'_, '_> {
             .collect();
         let temperatures =
             motions.iter().filter_map(|motion| Some((motion.hinge, motion.temperature_c?))).collect();
+        let progress = Progress {
+            opened: usize::from(telemetry.opened),
+            total: self.schedule.steps.len(),
+            motions: motions.clone(),
+            at: telemetry.at,
+            supply: telemetry.supply,
+            current: telemetry.current,
+        };
+        if self.attended && self.started.is_none() {
+            // A person may take long to arm and start it; nothing of that is the run's.
+            return progress;
+        }
         self.log.add(
             now,
             &Record::Telemetry {
@@ -362,10 +430,10 @@ impl Watch<'_, '_> {
                 current_ma: telemetry.current.0,
                 opened: telemetry.opened,
                 temperatures,
-                motions: motions.clone(),
+                motions,
             },
         );
-        Progress { opened: usize::from(telemetry.opened), total: self.schedule.steps.len(), motions }
+        progress
     }
 
     /// Asks the MCU for the last word on every step, and closes the report.

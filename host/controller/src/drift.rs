@@ -154,6 +154,7 @@ impl Sightings {
             | Record::State { .. }
             | Record::Done { .. }
             | Record::Fault { .. }
+            | Record::Paused
             | Record::StopRequested
             | Record::StopConfirmed { .. }
             | Record::Lost { .. } => {}

@@ -101,6 +101,8 @@ pub enum Record {
         #[serde(skip)]
         motions: Vec<MotionState>,
     },
+    /// The run was paused: its MCU is disarmed, and everything is off.
+    Paused,
     /// The user stopped the run.
     StopRequested,
     /// The MCU has confirmed the stop.
@@ -127,6 +129,7 @@ impl Record {
             | Self::Telemetry { mcu_us, .. } => Some(Micros(*mcu_us)),
             Self::Connected { .. }
             | Self::Uploaded { .. }
+            | Self::Paused
             | Self::StopRequested
             | Self::StopConfirmed { .. }
             | Self::Lost { .. } => None,

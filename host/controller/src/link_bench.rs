@@ -148,14 +148,7 @@ fn commands<T: Transport>(session: &mut Session<T>, time: Millis) -> Result<f64,
 fn take_status<T: Transport>(session: &mut Session<T>, id: u16) -> Result<(), RequestError> {
     match session.response(id)? {
         Ok(Reply::Status(_)) => Ok(()),
-        Ok(
-            Reply::Done
-            | Reply::Progress { .. }
-            | Reply::LastRun(_)
-            | Reply::Settings(_)
-            | Reply::Readings(_)
-            | Reply::Memory(_),
-        ) => Err(RequestError::WrongReply { command: "status" }),
+        Ok(_) => Err(RequestError::WrongReply { command: "status" }),
         Err(refusal) => Err(RequestError::Refused { command: "status", refusal }),
     }
 }

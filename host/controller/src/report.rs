@@ -16,6 +16,8 @@ pub enum Outcome {
     Folded,
     /// The user stopped it, and the MCU confirmed.
     Stopped,
+    /// The user paused it: the MCU was disarmed, and everything is off.
+    Paused,
     /// The MCU turned everything off.
     Fault(String),
     /// The session broke; the MCU turns everything off by itself.
@@ -200,6 +202,7 @@ fn advice(outcome: &Outcome, interrupted: usize) -> String {
     match outcome {
         Outcome::Deployed => "nothing: every hinge is open".to_owned(),
         Outcome::Folded => "nothing: every hinge is closed".to_owned(),
+        Outcome::Paused => format!("{look}; go on from here with --resume and this report"),
         Outcome::Stopped | Outcome::Fault(_) => {
             format!("{look}; mend what is wrong, and go on from here with --clear --resume and this report")
         }
@@ -220,6 +223,7 @@ impl fmt::Display for RunReport {
         match &self.outcome {
             Outcome::Deployed | Outcome::Folded => writeln!(f, "{done}: {hinges}")?,
             Outcome::Stopped => writeln!(f, "stopped: {hinges}")?,
+            Outcome::Paused => writeln!(f, "paused: {hinges}")?,
             Outcome::Fault(why) | Outcome::Lost(why) => writeln!(f, "not {done}: {hinges}; {why}")?,
         }
         for (name, outcome) in

@@ -1,6 +1,6 @@
 //! An earlier run's report as the start of the next one (S12).
 
-use crate::report::HingeOutcome;
+use crate::report::{HingeOutcome, RunReport};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use zygote_deployment::{Direction, Kind, Schedule};
@@ -18,6 +18,15 @@ struct EarlierHinge {
     hinge: usize,
     kind: Kind,
     outcome: HingeOutcome,
+}
+
+impl From<&RunReport> for EarlierRun {
+    fn from(report: &RunReport) -> Self {
+        let hinges = report.hinges.iter();
+        let hinges =
+            hinges.map(|one| EarlierHinge { hinge: one.hinge, kind: one.kind, outcome: one.outcome });
+        Self { rig: report.rig.clone(), direction: report.direction, hinges: hinges.collect() }
+    }
 }
 
 /// Why a run can't go on from an earlier one.

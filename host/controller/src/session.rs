@@ -6,8 +6,8 @@ use crate::connect::{self, ConnectError, transmit};
 use crate::inbox::{Broken, Inbox, Notice};
 use std::io;
 use zygote_protocol::{
-    Command, HelloReply, Link, LinkCounters, MemoryReport, Micros, Millis, Readings, Refusal, Reply, Request,
-    SendError, Settings, SettingsReport, Snapshot, Status, Urgent,
+    Actuator, Calibration, Command, HelloReply, Link, LinkCounters, MemoryReport, Micros, Millis, Readings,
+    Refusal, Reply, Request, SendError, Settings, SettingsReport, Snapshot, Status, Urgent,
 };
 
 /// An MCU that says nothing for so long is gone; it says something at least every 200 ms.
@@ -247,15 +247,10 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// As [`Self::request`].
     pub fn status(&mut self) -> Result<Status, RequestError> {
-        match self.request(Command::Status)? {
-            Reply::Status(status) => Ok(status),
-            Reply::Done
-            | Reply::Progress { .. }
-            | Reply::LastRun(_)
-            | Reply::Settings(_)
-            | Reply::Readings(_)
-            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "status" }),
-        }
+        let Reply::Status(status) = self.request(Command::Status)? else {
+            return Err(RequestError::WrongReply { command: "status" });
+        };
+        Ok(status)
     }
 
     /// Asks what the MCU was doing when it was reset.
@@ -263,15 +258,10 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// As [`Self::request`].
     pub fn last_run(&mut self) -> Result<Option<Snapshot>, RequestError> {
-        match self.request(Command::LastRun)? {
-            Reply::LastRun(snapshot) => Ok(snapshot),
-            Reply::Done
-            | Reply::Progress { .. }
-            | Reply::Status(_)
-            | Reply::Settings(_)
-            | Reply::Readings(_)
-            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "last run" }),
-        }
+        let Reply::LastRun(snapshot) = self.request(Command::LastRun)? else {
+            return Err(RequestError::WrongReply { command: "last run" });
+        };
+        Ok(snapshot)
     }
 
     /// Asks which settings are in force, and which are compiled into the board.
@@ -279,15 +269,10 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// As [`Self::request`].
     pub fn settings(&mut self) -> Result<SettingsReport, RequestError> {
-        match self.request(Command::Settings)? {
-            Reply::Settings(report) => Ok(report),
-            Reply::Done
-            | Reply::Progress { .. }
-            | Reply::Status(_)
-            | Reply::LastRun(_)
-            | Reply::Readings(_)
-            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "settings" }),
-        }
+        let Reply::Settings(report) = self.request(Command::Settings)? else {
+            return Err(RequestError::WrongReply { command: "settings" });
+        };
+        Ok(report)
     }
 
     /// Asks what the heaters' thermistors read, from channel `first` on.
@@ -295,15 +280,10 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// As [`Self::request`].
     pub fn readings(&mut self, first: u16) -> Result<Readings, RequestError> {
-        match self.request(Command::Readings { first })? {
-            Reply::Readings(readings) => Ok(readings),
-            Reply::Done
-            | Reply::Progress { .. }
-            | Reply::Status(_)
-            | Reply::LastRun(_)
-            | Reply::Settings(_)
-            | Reply::Memory(_) => Err(RequestError::WrongReply { command: "readings" }),
-        }
+        let Reply::Readings(readings) = self.request(Command::Readings { first })? else {
+            return Err(RequestError::WrongReply { command: "readings" });
+        };
+        Ok(readings)
     }
 
     /// Asks what became of what the board keeps over power cycles.
@@ -311,15 +291,10 @@ impl<T: Transport> Session<T> {
     /// # Errors
     /// As [`Self::request`].
     pub fn memory(&mut self) -> Result<MemoryReport, RequestError> {
-        match self.request(Command::Memory)? {
-            Reply::Memory(report) => Ok(report),
-            Reply::Done
-            | Reply::Progress { .. }
-            | Reply::Status(_)
-            | Reply::LastRun(_)
-            | Reply::Settings(_)
-            | Reply::Readings(_) => Err(RequestError::WrongReply { command: "memory" }),
-        }
+        let Reply::Memory(report) = self.request(Command::Memory)? else {
+            return Err(RequestError::WrongReply { command: "memory" });
+        };
+        Ok(report)
     }
 
     /// Has the board keep these settings for good; returns once they are stored and in force.
@@ -328,6 +303,33 @@ impl<T: Transport> Session<T> {
     /// As [`Self::request`].
     pub fn configure(&mut self, settings: Settings) -> Result<(), RequestError> {
         self.request(Command::Configure(settings)).map(drop)
+    }
+
+    /// Asks what the board knows of an actuator by measurement.
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn calibration(&mut self, actuator: Actuator) -> Result<Calibration, RequestError> {
+        let Reply::Calibration(calibration) = self.request(Command::Calibration(actuator))? else {
+            return Err(RequestError::WrongReply { command: "calibration" });
+        };
+        Ok(calibration)
+    }
+
+    /// Has the board keep these calibrations for good, each in force once it is stored; those that it knows already are left alone, for
+    /// flash wears out. How many were new.
+    ///
+    /// # Errors
+    /// As [`Self::request`]; those before the refused one are kept.
+    pub fn calibrate(&mut self, calibrations: &[Calibration]) -> Result<usize, RequestError> {
+        let mut new = 0;
+        for &calibration in calibrations {
+            if self.calibration(calibration.actuator())? != calibration {
+                self.request(Command::Calibrate(calibration))?;
+                new += 1;
+            }
+        }
+        Ok(new)
     }
 
     /// Opens the next session on the same line, after this one was lost.
@@ -440,6 +442,8 @@ fn name_of(command: &Command) -> &'static str {
         Command::LastRun => "last run",
         Command::Settings => "settings",
         Command::Memory => "memory",
+        Command::Calibration(_) => "calibration",
+        Command::Calibrate(_) => "calibrate",
         Command::Configure(_) => "configure",
         Command::Readings { .. } => "readings",
     }

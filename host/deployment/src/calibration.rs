@@ -1,12 +1,14 @@
 //! The calibration file: what was measured of a rig's hinges, with intervals. `zygote calibrate` writes it, people read it.
 
+use crate::calibrated_servo::CalibratedServo;
 use crate::rig::{Celsius, Joules, KelvinsPerWatt, Ohms, Seconds};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The one version of the file.
-const VERSION: u32 = 1;
+/// The version of the file that is written. The first knew no servos; it is read too.
+const VERSION: u32 = 2;
+const OLDEST: u32 = 1;
 
 /// A calibration file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,6 +42,12 @@ impl fmt::Display for CalibratedAt {
     }
 }
 
+/// The file's version, whatever else it has.
+#[derive(Deserialize)]
+struct Versioned {
+    version: u32,
+}
+
 /// One hinge.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -66,6 +74,9 @@ pub struct CalibratedHinge {
     /// Values with their intervals of 95 %, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub values: BTreeMap<String, Calibrated>,
+    /// Of a servo hinge, what was found instead of values.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub servo: Option<CalibratedServo>,
 }
 
 /// What to think of a hinge's calibration.
@@ -138,7 +149,7 @@ pub enum CalibrationError {
         message: String,
     },
     /// Another version.
-    #[error("expected version {VERSION}, found {found}")]
+    #[error("expected version {OLDEST} to {VERSION}, found {found}")]
     Version {
         /// What it says.
         found: u32,
@@ -175,11 +186,15 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError`], for what is no calibration of `rig`.
     pub fn read(text: &str, rig: &str) -> Result<Self, CalibrationError> {
-        let calibration: Self = toml::from_str(text)
-            .map_err(|error| CalibrationError::Parse { message: error.to_string().trim_end().to_owned() })?;
-        if calibration.version != VERSION {
-            return Err(CalibrationError::Version { found: calibration.version });
+        let parse = |error: toml::de::Error| CalibrationError::Parse {
+            message: error.to_string().trim_end().to_owned(),
+        };
+        // Before the keys: a file of another version may have keys that this one doesn't know.
+        let Versioned { version } = toml::from_str(text).map_err(parse)?;
+        if !(OLDEST..=VERSION).contains(&version) {
+            return Err(CalibrationError::Version { found: version });
         }
+        let calibration = Self { version: VERSION, ..toml::from_str(text).map_err(parse)? };
         if calibration.rig != rig {
             return Err(CalibrationError::OtherRig { expected: rig.to_owned(), found: calibration.rig });
         }
@@ -288,6 +303,7 @@ mod tests {
                 ("heater_resistance".to_owned(), value),
                 ("austenite_finish".to_owned(), unknown),
             ]),
+            servo: None,
         }
     }
 
@@ -309,12 +325,19 @@ mod tests {
         let text = calibration(vec![]).text().unwrap();
         let error = Calibration::read(&text, "other").unwrap_err().to_string();
         assert_eq!(error, "a calibration of rig \"r\", expected \"other\": calibrate this rig");
-        let newer = text.replace("version = 1", "version = 2");
-        assert_eq!(Calibration::read(&newer, "r"), Err(CalibrationError::Version { found: 2 }));
+        let newer = text.replace("version = 2", "version = 3\nnew = 1");
+        assert_eq!(Calibration::read(&newer, "r"), Err(CalibrationError::Version { found: 3 }));
         assert!(matches!(Calibration::read("no", "r"), Err(CalibrationError::Parse { .. })));
         let mut old = calibration(vec![hinge(1, "25 ohm")]);
         let new = Calibration { unique_id: "01".to_owned(), ..calibration(vec![]) };
         assert!(matches!(old.take_in(new), Err(CalibrationError::OtherBoard { .. })));
+    }
+
+    #[test]
+    fn a_file_of_the_first_version_is_read_and_written_as_the_newest() {
+        let written = calibration(vec![hinge(1, "25.1 ohm")]);
+        let first = written.text().unwrap().replace("version = 2", "version = 1");
+        assert_eq!(Calibration::read(&first, "r"), Ok(written));
     }
 
     #[test]

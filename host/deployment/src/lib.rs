@@ -13,6 +13,7 @@
 //!
 //! Pure: no clock, no file, no wire. Words and signs are those of `docs/src/geometry.md`.
 
+mod calibrated_servo;
 mod calibration;
 pub mod dense;
 mod heating;
@@ -31,6 +32,7 @@ mod testing;
 mod tolerance;
 mod tree;
 
+pub use calibrated_servo::{CalibratedServo, NoPulse, ServoPoint};
 pub use calibration::{
     Calibrated, CalibratedAt, CalibratedHinge, Calibration, CalibrationError, CalibrationVerdict, Known,
 };

@@ -114,6 +114,7 @@ impl Rehearsal {
             clear: false,
             any_board: false,
             interrupted: &|| false,
+            steer: None,
         };
         let ended = deploy(&mut session, &deployment, &mut log, &mut |_| {});
         drop(log);

@@ -104,6 +104,7 @@ impl<'a> Run<'a> {
                 Outcome::Folded => Ended::Well("folded".to_owned()),
                 Outcome::Stopped => Ended::Early("stopped by the user".to_owned()),
                 Outcome::Fault(why) => Ended::Badly(why.clone()),
+                Outcome::Paused => Ended::Early("paused by the user".to_owned()),
                 Outcome::Lost(why) => Ended::Badly(format!("lost: {why}")),
             },
             None => match self.faults().into_iter().next() {

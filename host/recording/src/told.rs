@@ -32,6 +32,9 @@ pub(crate) fn sentence(record: &Record) -> Option<(Level, String)> {
             let place = hinge.map(|hinge| format!(" at hinge {hinge}")).unwrap_or_default();
             (Level::Error, format!("{fault}{place}: measured {value}, limit {limit}"))
         }
+        Record::Paused => {
+            (Level::Warning, "the user pauses the run: the MCU is disarmed, everything is off".to_owned())
+        }
         Record::StopRequested => (Level::Warning, "the user stops the run".to_owned()),
         Record::StopConfirmed { after_us } => {
             #[expect(clippy::cast_precision_loss, reason = "a confirmation takes less than 2^52 us")]

@@ -70,10 +70,19 @@ pub fn emulated(
 pub fn bench(rig: &Rig, fittings: &[Fitting], boot: u32) -> Result<Board, BoardError> {
     let mut plant = plant(rig, None)?;
     for (hinge, fitting) in fittings.iter().enumerate() {
-        if let (Drive::Sma(_), Some(place)) =
-            (fitting.drive, plant.heaters.get_mut(usize::from(fitting.channel)))
-        {
-            *place = sma(rig.sim.sma_plant(hinge), 0.0, NO_HINGE_DEG);
+        let channel = usize::from(fitting.channel);
+        match fitting.drive {
+            Drive::Sma(_) => {
+                if let Some(place) = plant.heaters.get_mut(channel) {
+                    *place = sma(rig.sim.sma_plant(hinge), 0.0, NO_HINGE_DEG);
+                }
+            }
+            Drive::Servo(_) => {
+                if let Some(place) = plant.servos.get_mut(channel) {
+                    *place = servo(rig, hinge, 0.0);
+                }
+            }
+            Drive::Spring(_) => {}
         }
     }
     Ok(Board::new(&plant, channels(rig)?, boot)?)
@@ -115,14 +124,9 @@ fn fit_hinges(plant: &mut Config, rig: &Rig, schedule: &Schedule) -> Result<(), 
                     *place = sma(rig.sim.sma_plant(step.hinge), start_deg, opening_deg);
                 }
             }
-            Drive::Servo(servo) => {
+            Drive::Servo(_) => {
                 if let Some(place) = plant.servos.get_mut(channel) {
-                    *place = ServoConfig {
-                        start_deg,
-                        pulse_min_us: servo.pulse_0.0 * 1e6,
-                        pulse_max_us: servo.pulse_270.0 * 1e6,
-                        ..ServoConfig::default()
-                    };
+                    *place = servo(rig, step.hinge, start_deg);
                 }
             }
             Drive::Spring(_) => {
@@ -133,6 +137,28 @@ fn fit_hinges(plant: &mut Config, rig: &Rig, schedule: &Schedule) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// A servo that turns the other way has its angles exchanged, not its pulses. A hinge stands between its stops.
+fn servo(rig: &Rig, hinge: usize, start_deg: f64) -> ServoConfig {
+    let truth = rig.sim.servo_plant(hinge);
+    let (pulse_0, pulse_270) = rig.true_pulses(hinge);
+    let mut ends = [(pulse_0.0 * 1e6, 0.0), (pulse_270.0 * 1e6, 270.0)];
+    ends.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let [(pulse_min_us, pulse_min_deg), (pulse_max_us, pulse_max_deg)] = ends;
+    ServoConfig {
+        start_deg: start_deg.clamp(truth.stop_low.0, truth.stop_high.0),
+        pulse_min_us,
+        pulse_max_us,
+        pulse_min_deg,
+        pulse_max_deg,
+        bow_deg: truth.bow.0,
+        stop_low_deg: truth.stop_low.0,
+        stop_high_deg: truth.stop_high.0,
+        dead_band_deg: truth.dead_band.0,
+        backlash_deg: truth.backlash.0,
+        ..ServoConfig::default()
+    }
 }
 
 fn sma(truth: &SmaPlant, start_deg: f64, opening_deg: f64) -> SmaConfig {

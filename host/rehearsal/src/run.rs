@@ -122,6 +122,7 @@ impl Trial {
                     // What goes wrong on the simulator harms no hinge.
                     any_board: true,
                     interrupted: &|| stop.get(),
+                    steer: None,
                 };
                 match deploy(&mut session, &deployment, &mut EventLog::new(io::sink()), &mut |_| {}) {
                     Ok(report) => Ending::Report(Box::new(report)),

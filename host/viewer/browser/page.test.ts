@@ -1,8 +1,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
 import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
-import { mosaic, repository, scratch, show, type Shown, zygote } from "./shown";
+import { faultsByAxe, mosaic, repository, scratch, show, type Shown, zygote } from "./shown";
 
 const place = scratch();
 let shown: Shown;
@@ -183,16 +182,10 @@ test("the pictures are those that were looked at", async () => {
 
 test("nobody is shut out", async () => {
   const { page } = shown;
-  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   await page.keyboard.press("]");
   for (const colorScheme of ["light", "dark"] as const) {
     await page.emulateMedia({ colorScheme });
-    await page.evaluate(axe);
-    const faults = await page.evaluate(async () => {
-      const run = (globalThis as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }).axe.run();
-      return (await run).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`);
-    });
-    expect(faults, colorScheme).toEqual([]);
+    expect(await faultsByAxe(page), colorScheme).toEqual([]);
   }
   await page.emulateMedia({ colorScheme: "light" });
 });

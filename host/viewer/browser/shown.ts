@@ -1,7 +1,8 @@
 //! A plan shown by the program in a real browser, for the tests of the page. `ZYGOTE` and `BROWSER_PROGRAM` name the two programs.
 
-import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { type ChildProcess, execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -42,21 +43,43 @@ export interface Shown {
   close(): Promise<void>;
 }
 
-/** Serves a plan, and opens the page. */
-export async function show(folder: string, ...options: string[]): Promise<Shown> {
-  const server = spawn(named("ZYGOTE"), ["view", ...options, "--no-open"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+export interface Served {
+  readonly address: string;
+  readonly program: ChildProcess;
+  /** What it said so far. */
+  readonly said: () => string;
+  /** Its exit code, once it has ended. */
+  readonly ended: Promise<number | null>;
+}
+
+/** Has the program serve a page; `verb` says what of. */
+export async function serve(folder: string, verb: string, ...options: string[]): Promise<Served> {
+  const program = spawn(named("ZYGOTE"), [verb, ...options, "--no-open"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  let said = "";
+  const ended = new Promise<number | null>((resolve) => program.on("exit", resolve));
   const address = await new Promise<string>((resolve, reject) => {
-    let said = "";
-    server.stdout.on("data", (part: Buffer) => {
+    program.stdout.on("data", (part: Buffer) => {
       said += part.toString();
-      const found = /http:\/\/\S+\//.exec(said);
+      const found = /http:\/\/\S+(?= )/.exec(said);
       if (found) resolve(found[0]);
     });
-    server.on("exit", (code) => reject(new Error(`zygote view ended with ${code}: ${said}`)));
+    void ended.then((code) => reject(new Error(`zygote ${verb} ended with ${code}: ${said}`)));
   });
-  const context = await chromium.launchPersistentContext(join(folder, "profile"), {
+  return { address, program, said: () => said, ended };
+}
+
+/** A browser with a profile of its own in the folder. */
+export function browser(folder: string): Promise<BrowserContext> {
+  return chromium.launchPersistentContext(join(folder, "profile"), {
     executablePath: named("BROWSER_PROGRAM"), args: FLAGS, viewport: { width: 840, height: 560 }, colorScheme: "light",
   });
+}
+
+/** Serves a plan, and opens the page. */
+export async function show(folder: string, ...options: string[]): Promise<Shown> {
+  const server = await serve(folder, "view", ...options);
+  const { address } = server;
+  const context = await browser(folder);
   const page = context.pages()[0] ?? (await context.newPage());
   const complaints: string[] = [];
   const asked: string[] = [];
@@ -72,9 +95,18 @@ export async function show(folder: string, ...options: string[]): Promise<Shown>
     page, context, address, complaints, asked,
     close: async () => {
       await context.close();
-      server.kill();
+      server.program.kill();
     },
   };
+}
+
+/** What axe finds wrong for people who don't see, or don't use a mouse. */
+export async function faultsByAxe(page: Page): Promise<string[]> {
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
+  return page.evaluate(async () => {
+    const run = (globalThis as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }).axe.run();
+    return (await run).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`);
+  });
 }
 
 /** Colours of the picture, in so many columns and rows: red, green and blue, 0 to 255. */

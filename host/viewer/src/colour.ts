@@ -48,6 +48,15 @@ export function loadColour(factor: number): Rgb {
   return oklch(0.86 - 0.18 * factor, 0.03 + 0.09 * factor, 160 - 85 * factor);
 }
 
+/** A hinge from a room's temperature to the hottest that is heated, °C: cold and pale blue to red. */
+export const COLDEST = 20;
+export const HOTTEST = 140;
+
+export function heatColour(celsius: number): Rgb {
+  const share = Math.min(Math.max((celsius - COLDEST) / (HOTTEST - COLDEST), 0), 1);
+  return oklch(0.84 - 0.24 * share, 0.05 + 0.15 * share, 235 - 208 * share ** 0.6);
+}
+
 export const NEUTRAL: Rgb = oklch(0.78, 0.008, 250);
 
 export const KINDS: Readonly<Record<string, Rgb>> = {

@@ -24,7 +24,7 @@ export class Framing {
     const apart: Frame[] = [];
     for (let sample = 0; sample < SAMPLES; sample++) {
       const time = (playback.end * sample) / (SAMPLES - 1);
-      motion.place({ time, fractions: timeline.fractions(time, fractions) });
+      motion.place({ time, share: sample / (SAMPLES - 1), fractions: timeline.fractions(time, fractions) });
       together.push(frame(motion, 0));
       apart.push(frame(motion, 1));
     }

@@ -18,6 +18,13 @@ export const KEYS: readonly (readonly [string, string])[] = [
   ["Esc", "pick nothing"],
 ];
 
+/** Of a run that goes on. */
+export const LIVE_KEYS: typeof KEYS = [
+  ["Esc", "STOP: everything off, at once, from anywhere"],
+  ...KEYS.filter(([key]) => !["Space", "← →", "Home, End", "Esc"].includes(key)),
+  ["Backspace", "pick nothing"],
+];
+
 export interface Doings {
   playOrPause(): void;
   step(forward: boolean): void;
@@ -61,6 +68,7 @@ export function doing(key: string, doings: Doings): (() => void) | undefined {
     case "f": return () => doings.frame();
     case "t": return () => doings.theme();
     case "?": return () => doings.help();
+    case "Backspace":
     case "Escape": return () => doings.nothing();
     default: return undefined;
   }

@@ -3,8 +3,10 @@
 import "./style.css";
 import { element } from "./element";
 import { post, postPicture } from "./picture";
-import { readScene } from "./scene";
-import { FilePlayback } from "./source";
+import { readScene, type Scene } from "./scene";
+import type { Told } from "./messages";
+import { LiveRun, RecordedRun } from "./runSource";
+import { FilePlayback, type Source } from "./source";
 import { Viewer } from "./viewer";
 import { pictureWish } from "./wishes";
 
@@ -13,19 +15,31 @@ declare global {
   var zygote: Viewer | undefined;
 }
 
-async function main(): Promise<void> {
-  const answer = await fetch("/scene.json");
+async function read(path: string): Promise<unknown> {
+  const answer = await fetch(path);
   if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
-  const scene = readScene(await answer.json());
+  return answer.json();
+}
+
+async function source(scene: Scene): Promise<Source> {
+  switch (scene.run?.from) {
+    case undefined: return new FilePlayback(scene);
+    case "live": return new LiveRun(scene);
+    case "recording": return new RecordedRun(scene, (await read("/run.json")) as Told[]);
+  }
+}
+
+async function main(): Promise<void> {
+  const scene = readScene(await read("/scene.json"));
   const [app, canvas, labels] = ["app", "stage", "labels"].map((id) => document.getElementById(id)!);
-  const wish = pictureWish(location.hash);
+  const wish = scene.run ? undefined : pictureWish(location.hash);
   if (wish) {
     document.documentElement.dataset["picture"] = "";
     await postPicture(scene, wish, canvas as HTMLCanvasElement);
     return;
   }
   document.title = `${scene.model} · zygote`;
-  const viewer = new Viewer(scene, new FilePlayback(scene), app!, canvas as HTMLCanvasElement, labels!);
+  const viewer = new Viewer(scene, await source(scene), app!, canvas as HTMLCanvasElement, labels!);
   viewer.start();
   globalThis.zygote = viewer;
   document.documentElement.dataset["ready"] = "";

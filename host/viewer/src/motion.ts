@@ -26,7 +26,7 @@ export class Motion {
   private readonly apartInStack: Vector3[];
   private readonly apartInTarget: Vector3[];
 
-  constructor(private readonly playback: Playback, private readonly places: Places) {
+  constructor(playback: Playback, private readonly places: Places) {
     this.kinematics = new Kinematics(playback);
     this.frames = this.kinematics.frames;
     this.apart = new Float64Array(places.panels * 3);
@@ -43,7 +43,7 @@ export class Motion {
     const lift = Math.min(LIFT, MOST_LIFT / Math.max(playback.piles[0]?.panels.length ?? 1, 1));
     this.apartInStack = places.of.map(({ pile, height }) =>
       cells[pile]!.clone().sub(cell).multiplyScalar(APART).add(new Vector3(0, 0, lift * height)));
-    this.place({ time: this.playback.end, fractions: closed.map(() => 1) });
+    this.place({ time: playback.end, share: 1, fractions: closed.map(() => 1) });
     const centres = playback.piles.map((pile) => mean(pile.panels.map((panel) => new Vector3(...this.centre(panel)))));
     const whole = mean(centres);
     this.apartInTarget = centres.map((centre) => centre.clone().sub(whole).multiplyScalar(APART));
@@ -51,7 +51,7 @@ export class Motion {
 
   /** Places all panels. */
   place(state: State): void {
-    const share = ease(this.playback.end > 0 ? state.time / this.playback.end : 1);
+    const share = ease(state.share);
     const turn = new Quaternion().slerp(this.toTarget, share);
     const space = new Matrix4().makeRotationFromQuaternion(turn);
     const shift = this.middle.clone().applyQuaternion(turn).negate();

@@ -1,6 +1,6 @@
 //! What colours say: of every mode a colour for each panel and each hinge, and the legend.
 
-import { css, DRIVES, KINDS, loadColour, NEUTRAL, pileColour, type Rgb, scaleColour } from "./colour";
+import { COLDEST, css, DRIVES, heatColour, HOTTEST, KINDS, loadColour, NEUTRAL, pileColour, type Rgb, scaleColour } from "./colour";
 import type { Hinge, Places, Scene } from "./scene";
 import { minutes } from "./timeline";
 
@@ -32,7 +32,7 @@ export interface Paint {
 export function missing(mode: Mode, scene: Scene): string | undefined {
   if (mode === "drive" && scene.drives === undefined) return "needs a schedule";
   if (mode === "torque" && scene.loads === undefined) return "needs --rig";
-  if (mode === "temperature") return "in live runs";
+  if (mode === "temperature" && scene.run === undefined) return "in runs";
   return undefined;
 }
 
@@ -43,7 +43,8 @@ export function hingeKind(hinge: Hinge): string {
 /** Most piles that a legend names. */
 const MOST_NAMED = 8;
 
-export function paint(mode: Mode, scene: Scene, places: Places): Paint {
+/** `celsius` is that of the hinges, where a run is shown. */
+export function paint(mode: Mode, scene: Scene, places: Places, celsius?: Float64Array): Paint {
   const byHinge = (colour: (hinge: number) => Rgb) => {
     const hinges = scene.hinges.map((_, hinge) => colour(hinge));
     const panels = places.movedBy.map((hinge) => (hinge === undefined ? NEUTRAL : hinges[hinge]!));
@@ -107,6 +108,9 @@ export function paint(mode: Mode, scene: Scene, places: Places): Paint {
       };
     }
     case "temperature":
-      return { ...byPlace(() => NEUTRAL), legend: { kind: "swatches", entries: [] } };
+      return {
+        ...byHinge((hinge) => (Number.isNaN(celsius?.[hinge] ?? NaN) ? NEUTRAL : heatColour(celsius![hinge]!))),
+        legend: scale(`${COLDEST} °C`, `${HOTTEST} °C`, (share) => heatColour(COLDEST + share * (HOTTEST - COLDEST))),
+      };
   }
 }

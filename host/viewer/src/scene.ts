@@ -68,6 +68,8 @@ export interface Scene extends Playback {
     readonly known: boolean;
     readonly collisions: readonly Collision[];
   };
+  /** What run the page shows; none where a plan is shown by itself. */
+  readonly run?: { readonly from: "live"; readonly number: number } | { readonly from: "recording" };
 }
 
 /** The version that this page understands. */

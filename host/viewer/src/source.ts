@@ -1,4 +1,4 @@
-//! Where the page gets its state from: a file that is played, or later a run that goes on.
+//! Where the page gets its state from: a plan that is played; runs are in `runSource.ts`.
 
 import { Timeline } from "./timeline";
 import type { Playback } from "./scene";
@@ -6,8 +6,12 @@ import type { Playback } from "./scene";
 /** What there is to show at a moment. */
 export interface State {
   readonly time: number;
+  /** How far the whole is from the stack (0) to the shape (1). */
+  readonly share: number;
   /** Of each hinge how far it is from the zygote (0) to the target (1). */
   readonly fractions: Float64Array;
+  /** Of each hinge its temperature, °C; not a number where nothing is measured, missing where nothing can be. */
+  readonly celsius?: Float64Array;
 }
 
 export interface Source {
@@ -45,7 +49,8 @@ export class FilePlayback implements Source {
   }
 
   get state(): State {
-    return { time: this.time, fractions: this.timeline.fractions(this.time, this.fractions) };
+    const share = this.timeline.end > 0 ? this.time / this.timeline.end : 1;
+    return { time: this.time, share, fractions: this.timeline.fractions(this.time, this.fractions) };
   }
 
   advance(seconds: number): boolean {

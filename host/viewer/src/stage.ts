@@ -20,6 +20,8 @@ const TO_EYE = new Vector3(0.52, -0.78, 0.5).normalize();
 const TO_LIGHT = new Vector3(-0.35, -0.5, 1).normalize();
 /** Narrow, so that far panels look nearly as large as near ones. */
 const FIELD_OF_VIEW = 24;
+/** Pixels of the picture over those of the page, where drawing is slow. */
+const COARSE = 0.6;
 
 export class Stage {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 1000);
@@ -37,6 +39,8 @@ export class Stage {
   private frame: Frame;
   /** The smaller side of what isn't covered, over the height. */
   private free = 1;
+  private coarse = false;
+  private inset = { left: 0, right: 0, bottom: 0 };
 
   constructor(canvas: HTMLCanvasElement, scene: Scene, places: Places, changed: () => void) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false });
@@ -59,12 +63,13 @@ export class Stage {
     this.controls.addEventListener("change", changed);
   }
 
-  /** `inset` is how much of the right and of the bottom is covered, in pixels: the middle is that of the rest. */
-  resize(width: number, height: number, pixelRatio: number, inset = { right: 0, bottom: 0 }): void {
+  /** `inset` is how much of each side is covered, in pixels: the middle is that of the rest. */
+  resize(width: number, height: number, pixelRatio: number, inset = { left: 0, right: 0, bottom: 0 }): void {
     Object.assign(this.size, { width, height });
-    this.free = Math.min(1 - inset.bottom / height, (width - inset.right) / height);
-    this.camera.setViewOffset(width, height, inset.right / 2, inset.bottom / 2, width, height);
-    this.renderer.setPixelRatio(Math.min(pixelRatio, 2));
+    this.inset = inset;
+    this.free = Math.min(1 - inset.bottom / height, (width - inset.left - inset.right) / height);
+    this.camera.setViewOffset(width, height, (inset.right - inset.left) / 2, inset.bottom / 2, width, height);
+    this.renderer.setPixelRatio(this.coarse ? COARSE : Math.min(pixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -128,6 +133,14 @@ export class Stage {
     this.sky.groundColor.set(theme.bounce);
     this.sky.intensity = theme.sky;
     this.sun.intensity = theme.sun;
+  }
+
+  /** For a machine that draws slowly: no shadow, and coarser. */
+  lighten(): void {
+    this.sun.castShadow = false;
+    this.ground.visible = false;
+    this.coarse = true;
+    this.resize(this.size.width, this.size.height, 1, this.inset);
   }
 
   render(): void {

@@ -14,7 +14,8 @@ export class TimeBar {
   private readonly clock = element("span", { class: "clock" });
   private readonly told = element("span", { class: "told" });
 
-  constructor(private readonly source: Source, play: () => void, changed: () => void) {
+  /** `above` is drawn in place of how much moves when. */
+  constructor(private readonly source: Source, play: () => void, changed: () => void, above?: HTMLElement) {
     this.button = element("button", { class: "play", type: "button" });
     this.button.addEventListener("click", play);
     this.slider = element("input", {
@@ -27,13 +28,16 @@ export class TimeBar {
       changed();
     });
     const ends = element("div", { class: "ends" }, element("span", {}, "stack"), this.told, element("span", {}, "shape"));
-    const track = element("div", { class: "track" }, activity(source), this.slider, ends);
+    this.slider.hidden = this.button.hidden = !source.seekable;
+    ends.hidden = !source.seekable;
+    const track = element("div", { class: "track" }, above ?? activity(source), this.slider, ends);
     this.root = element("section", { id: "time", "aria-label": "Time" }, this.button, track, this.clock);
     this.update();
   }
 
   update(): void {
-    const { timeline, state, playing } = this.source;
+    const { timeline, state, playing, seekable } = this.source;
+    if (!seekable) return;
     const share = timeline.end > 0 ? state.time / timeline.end : 1;
     this.slider.value = String(Math.round(share * STEPS));
     this.slider.style.setProperty("--share", `${(share * 100).toFixed(2)}%`);

@@ -16,7 +16,7 @@ export class Timeline {
   constructor(private readonly playback: Playback) {
     this.end = playback.end;
     this.scheduled = playback.scheduled;
-    this.moments = [...new Set([0, ...playback.spans.flat(), playback.end])].sort((a, b) => a - b);
+    this.moments = [...new Set([0, ...playback.spans.flat().filter((time) => time > 0 && time < Infinity), playback.end])].sort((a, b) => a - b);
   }
 
   /** Of each hinge, how far it is from the zygote (0) to the target (1). */

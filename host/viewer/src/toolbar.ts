@@ -2,7 +2,7 @@
 
 import { element, icon, ICONS } from "./element";
 import { type Legend, missing, type Mode, MODE_NAMES, MODES } from "./paint";
-import { KEYS } from "./keyboard";
+import { KEYS, LIVE_KEYS } from "./keyboard";
 import type { Scene } from "./scene";
 
 export interface Tools {
@@ -12,6 +12,7 @@ export interface Tools {
   pick(panel: number): void;
   frame(): void;
   theme(): void;
+  help(): void;
 }
 
 export class Toolbar {
@@ -28,6 +29,8 @@ export class Toolbar {
       const words = why === undefined ? MODE_NAMES[mode] : `${MODE_NAMES[mode]} (${why})`;
       return element("option", { value: mode, disabled: why !== undefined }, words);
     }));
+    // A list that drops down would keep the key that stops a run to itself.
+    if (scene.run?.from === "live") this.mode.size = MODES.length;
     this.mode.addEventListener("change", () => tools.colour(this.mode.value as Mode));
     this.explode = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0" });
     this.explode.addEventListener("input", () => tools.explode(Number(this.explode.value)));
@@ -39,7 +42,7 @@ export class Toolbar {
     number.addEventListener("change", () => {
       if (number.value !== "" && number.checkValidity()) tools.pick(Number(number.value));
     });
-    this.help = keys();
+    this.help = keys(scene.run?.from === "live" ? LIVE_KEYS : KEYS);
     const button = (name: string, path: string, does: () => void) => {
       const made = element("button", { type: "button", class: "quiet", "aria-label": name, title: name }, icon(path));
       made.addEventListener("click", does);
@@ -51,7 +54,7 @@ export class Toolbar {
       element("div", { class: "buttons" },
         button("Look at everything (F)", ICONS.frame, () => tools.frame()),
         button("Light or dark (T)", ICONS.theme, () => tools.theme()),
-        button("Keys (?)", ICONS.help, () => this.help.showModal())),
+        button("Keys (?)", ICONS.help, () => tools.help())),
       row("Colour", this.mode),
       this.legend,
       row("Apart", this.explode),
@@ -81,8 +84,8 @@ function drawn(legend: Legend): HTMLElement[] {
   return [bar, element("span", { class: "from" }, legend.from), element("span", { class: "to" }, legend.to)];
 }
 
-function keys(): HTMLDialogElement {
-  const rows = KEYS.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, keys), element("td", {}, does)));
+function keys(list: typeof KEYS): HTMLDialogElement {
+  const rows = list.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, keys), element("td", {}, does)));
   const close = element("button", { type: "submit" }, "Close");
   const title = element("h2", { id: "keys" }, "Keys");
   return element(

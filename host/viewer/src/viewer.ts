@@ -6,6 +6,8 @@ import { Labels } from "./labels";
 import { missing, type Mode, MODES, type Paint, paint } from "./paint";
 import { PanelCard } from "./panelCard";
 import { Places, type Scene } from "./scene";
+import { RunPage } from "./runPage";
+import { LiveRun, RecordedRun } from "./runSource";
 import type { Source } from "./source";
 import { Stage } from "./stage";
 import { ThemeChoice } from "./theme";
@@ -14,6 +16,9 @@ import { Toolbar } from "./toolbar";
 
 /** A pointer that went less far, in pixels, picked something. */
 const DRAG = 4;
+/** A frame of a run that takes longer, in milliseconds, so many times in a row, is drawn with less: keys come first. */
+const SLOW = 120;
+const SLOW_FRAMES = 3;
 
 export class Viewer {
   private readonly places: Places;
@@ -23,6 +28,7 @@ export class Viewer {
   private readonly card: PanelCard;
   private readonly tools: Toolbar;
   private readonly themes: ThemeChoice;
+  private readonly run: RunPage | undefined;
   private mode: Mode = "pile";
   private colours: Paint;
   private explode = 0;
@@ -32,6 +38,12 @@ export class Viewer {
   private across = 0;
   private asked = false;
   private last = 0;
+  /** The picture isn't what was asked for, whatever the source says. */
+  private stale = true;
+  /** News are shown no sooner than this. */
+  private rest = 0;
+  private waiting = false;
+  private slow = 0;
   /** How long the last frames took, in milliseconds of this page's own work. */
   readonly work: number[] = [];
 
@@ -43,7 +55,11 @@ export class Viewer {
     this.stage = new Stage(canvas, scene, this.places, () => this.ask());
     this.labels = new Labels(labels, scene);
     this.colours = paint(this.mode, scene, this.places);
-    this.bar = new TimeBar(source, () => this.playOrPause(), () => this.ask());
+    if (source instanceof LiveRun || source instanceof RecordedRun) {
+      this.run = new RunPage(source, scene, () => this.news(), (time) => this.seek(time));
+      document.documentElement.dataset["run"] = scene.run?.from;
+    }
+    this.bar = new TimeBar(source, () => this.playOrPause(), () => this.ask(), this.run?.gantt.root);
     this.card = new PanelCard(scene, this.places, (panel) => this.pick(panel));
     this.tools = new Toolbar(scene, this.places.panels, {
       colour: (mode) => this.colour(mode),
@@ -52,56 +68,84 @@ export class Viewer {
       pick: (panel) => this.pick(panel),
       frame: () => this.frame(),
       theme: () => this.themes.toggle(),
+      help: () => this.help(),
     });
     this.themes = new ThemeChoice((theme) => {
       this.stage.theme(theme);
       this.ask();
     });
     const side = element("div", { id: "side" }, this.tools.root, this.card.root);
-    app.append(heading(scene), side, this.bar.root, this.tools.help);
+    app.append(heading(scene), ...(this.run?.parts ?? []), side, this.bar.root, this.tools.help);
   }
 
   start(): void {
     this.themes.apply();
-    this.colour("pile");
+    this.colour(this.run ? "temperature" : "pile");
     this.pick(undefined);
     this.listen();
     this.resize();
     this.draw(0);
     this.stage.reset();
     this.ask();
+    this.run?.start();
   }
 
   /** Draws soon. */
   private ask(): void {
+    this.stale = true;
+    this.frameSoon();
+  }
+
+  /** Shows what is new of a run. A page that draws slowly keeps half its time for keys, and for what the program says. */
+  private news(): void {
+    const wait = this.rest - performance.now();
+    if (wait <= 0) return this.frameSoon();
+    if (this.waiting) return;
+    this.waiting = true;
+    setTimeout(() => {
+      this.waiting = false;
+      this.frameSoon();
+    }, wait);
+  }
+
+  private frameSoon(): void {
     if (this.asked) return;
     this.asked = true;
+    const asked = performance.now();
     requestAnimationFrame((now) => {
       this.asked = false;
       const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
       this.draw(passed);
+      const done = performance.now();
+      this.rest = done + Math.min(2 * (done - asked), 1000);
+      this.slow = done - asked > SLOW ? this.slow + 1 : 0;
+      if (this.run && this.slow === SLOW_FRAMES) this.stage.lighten();
       this.last = this.asked ? now : 0;
     });
   }
 
   private draw(passed: number): void {
     const start = performance.now();
-    this.source.advance(passed);
-    const { state, timeline, playing } = this.source;
-    const share = timeline.end > 0 ? state.time / timeline.end : 1;
+    const moved = this.source.advance(passed);
+    const { state, playing } = this.source;
     // Apart and together in a quarter of a second.
     const way = this.explodeTo - this.explode;
     this.explode += Math.abs(way) < 0.004 ? way : way * Math.min(1, passed * 12 + 0.05);
-    this.stage.place(state, share, this.explode);
-    this.stage.render();
-    const { motion, bars, camera, size } = this.stage;
-    const all = this.scene.hinges.map((_, hinge) => hinge);
-    const own = this.picked === undefined ? [] : [...this.places.hinges[this.picked]!];
-    const shown = this.hinges ? all : own;
-    const apart = { by: motion.apart, share: this.explode };
-    this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
+    if (moved || this.stale) {
+      this.stale = false;
+      if (this.mode === "temperature") this.stage.paint(paint(this.mode, this.scene, this.places, state.celsius));
+      this.stage.place(state, state.share, this.explode);
+      this.stage.render();
+      const { motion, bars, camera, size } = this.stage;
+      const all = this.scene.hinges.map((_, hinge) => hinge);
+      const own = this.picked === undefined ? [] : [...this.places.hinges[this.picked]!];
+      const shown = this.hinges ? all : own;
+      const apart = { by: motion.apart, share: this.explode };
+      this.labels.show(shown, this.hinges, state.fractions, motion.frames, apart, bars.middles, camera, size);
+    }
     this.bar.update();
     this.card.update(state.fractions);
+    this.run?.update(state.fractions);
     this.work.push(performance.now() - start);
     if (this.work.length > 240) this.work.shift();
     if (playing || this.explode !== this.explodeTo) this.ask();
@@ -121,7 +165,7 @@ export class Viewer {
   private colour(mode: Mode): void {
     if (missing(mode, this.scene) !== undefined) return;
     this.mode = mode;
-    this.colours = paint(mode, this.scene, this.places);
+    this.colours = paint(mode, this.scene, this.places, this.source.state.celsius);
     this.stage.paint(this.colours);
     this.told();
   }
@@ -157,6 +201,12 @@ export class Viewer {
     return a === panel ? b : a;
   }
 
+  private help(): void {
+    // Where there is something to stop, the button stays in reach.
+    if (this.scene.run?.from === "live") this.tools.help.show();
+    else this.tools.help.showModal();
+  }
+
   private frame(): void {
     this.stage.reset();
     this.ask();
@@ -165,7 +215,8 @@ export class Viewer {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     // What the tools leave free; they may cover a little of a wide page, but not the middle of a narrow one.
-    const inset = { right: Math.min(200, Math.max(0, width - height)), bottom: Math.min(100, height / 5) };
+    const sides = Math.min(200, Math.max(0, width - height));
+    const inset = { left: this.run ? sides : 0, right: sides, bottom: this.run ? height / 4 : Math.min(100, height / 5) };
     this.stage.resize(width, height, devicePixelRatio, inset);
     this.ask();
   }
@@ -210,7 +261,7 @@ export class Viewer {
       },
       frame: () => this.frame(),
       theme: () => this.themes.toggle(),
-      help: () => this.tools.help.showModal(),
+      help: () => this.help(),
       nothing: () => this.pick(undefined),
     });
   }
@@ -234,7 +285,7 @@ function heading(scene: Scene): HTMLElement {
     "header", { id: "what" },
     element("h1", {}, name),
     element("p", {}, `${panels} panels in ${piles} of ${high} · ${scene.expansion_ratio.toFixed(1)} times the volume`),
-    element("p", { class: collisions.length > 0 ? "note bad" : "note" }, told),
-    ...(scene.scheduled ? [] : [element("p", { class: "note" }, "No schedule: hinges open in the order of the tree")]),
+    ...(scene.run && collisions.length === 0 ? [] : [element("p", { class: collisions.length > 0 ? "note bad" : "note" }, told)]),
+    ...(scene.scheduled || scene.run ? [] : [element("p", { class: "note" }, "No schedule: hinges open in the order of the tree")]),
   );
 }

@@ -51,4 +51,5 @@ test("modes without data say what they lack", () => {
   const { drives: _, loads: __, ...bare } = scene;
   expect(MODES.filter((mode) => missing(mode, bare) !== undefined)).toEqual(["drive", "torque", "temperature"]);
   expect(MODES.filter((mode) => missing(mode, scene) !== undefined)).toEqual(["temperature"]);
+  expect(missing("temperature", byHand({ run: { from: "live", number: 0 } }))).toBeUndefined();
 });

@@ -7,6 +7,8 @@
 //!   Moving -- target reached --> Holding
 //!   Moving -- end stop or jam --> Stalled -- target within reach --> Moving or Holding
 //! ```
+//!
+//! The motor turns; the hinge follows it with some backlash.
 
 use zygote_core::PulseMicros;
 
@@ -25,6 +27,8 @@ pub struct ServoConfig {
     pub pulse_min_deg: f64,
     /// Angle commanded by the longest pulse.
     pub pulse_max_deg: f64,
+    /// The commanded angle lies so far above the straight line in the middle between the two pulses: a parabola.
+    pub bow_deg: f64,
     /// Lower end stop of the hinge.
     pub stop_low_deg: f64,
     /// Upper end stop of the hinge.
@@ -33,6 +37,8 @@ pub struct ServoConfig {
     pub slew_deg_per_s: f64,
     /// Error below which it does not move.
     pub dead_band_deg: f64,
+    /// Play between motor and hinge: so much the motor turns before the hinge follows it back.
+    pub backlash_deg: f64,
     /// Voltage that the speed is given at.
     pub rated_v: f64,
     /// Current while it stands still or is limp.
@@ -53,10 +59,12 @@ impl Default for ServoConfig {
             pulse_max_us: 2500.0,
             pulse_min_deg: 0.0,
             pulse_max_deg: 270.0,
+            bow_deg: 0.0,
             stop_low_deg: 0.0,
             stop_high_deg: 270.0,
             slew_deg_per_s: 375.0,
             dead_band_deg: 0.4,
+            backlash_deg: 0.0,
             rated_v: 5.0,
             idle_ma: 5.0,
             moving_ma: 180.0,
@@ -69,7 +77,9 @@ impl ServoConfig {
     /// The angle that `pulse` commands.
     pub fn angle_deg_from(&self, pulse: PulseMicros) -> f64 {
         let share = (f64::from(pulse.0) - self.pulse_min_us) / (self.pulse_max_us - self.pulse_min_us);
-        self.pulse_min_deg + (self.pulse_max_deg - self.pulse_min_deg) * share.clamp(0.0, 1.0)
+        let share = share.clamp(0.0, 1.0);
+        let line_deg = self.pulse_min_deg + (self.pulse_max_deg - self.pulse_min_deg) * share;
+        line_deg + 4.0 * self.bow_deg * share * (1.0 - share)
     }
 
     pub(super) fn check(&self, place: Place) -> Result<(), PlantError> {
@@ -77,6 +87,10 @@ impl ServoConfig {
         positive(place, "longest less shortest pulse (us)", self.pulse_max_us - self.pulse_min_us)?;
         finite(place, "angle of the shortest pulse (°)", self.pulse_min_deg)?;
         finite(place, "angle of the longest pulse (°)", self.pulse_max_deg)?;
+        // Beyond a quarter of the way the parabola would turn back.
+        let way_deg = (self.pulse_max_deg - self.pulse_min_deg).abs();
+        positive(place, "way less four times the bow (°)", way_deg - 4.0 * self.bow_deg.abs())?;
+        not_negative(place, "backlash (°)", self.backlash_deg)?;
         positive(place, "upper less lower end stop (°)", self.stop_high_deg - self.stop_low_deg)?;
         not_negative(place, "start above the lower end stop (°)", self.start_deg - self.stop_low_deg)?;
         not_negative(place, "start below the upper end stop (°)", self.stop_high_deg - self.start_deg)?;
@@ -106,6 +120,8 @@ pub enum ServoActivity {
 #[derive(Debug, Clone)]
 pub struct ServoHinge {
     config: ServoConfig,
+    motor_deg: f64,
+    /// The hinge: within half the backlash of the motor.
     angle_deg: f64,
     activity: ServoActivity,
     jammed: bool,
@@ -116,6 +132,7 @@ impl ServoHinge {
     pub(super) fn new(config: ServoConfig) -> Self {
         Self {
             config,
+            motor_deg: config.start_deg,
             angle_deg: config.start_deg,
             activity: ServoActivity::Limp,
             jammed: false,
@@ -143,10 +160,10 @@ impl ServoHinge {
             None => ServoActivity::Limp,
             Some(pulse) => {
                 let target_deg = self.config.angle_deg_from(pulse);
-                let room_deg = self.reachable(target_deg) - self.angle_deg;
+                let room_deg = self.reachable(target_deg) - self.motor_deg;
                 if self.stalled {
                     ServoActivity::Stalled
-                } else if (target_deg - self.angle_deg).abs() <= self.config.dead_band_deg {
+                } else if (target_deg - self.motor_deg).abs() <= self.config.dead_band_deg {
                     ServoActivity::Holding
                 } else if self.jammed || room_deg == 0.0 {
                     ServoActivity::Stalled
@@ -167,8 +184,10 @@ impl ServoHinge {
     pub(super) fn advance(&mut self, dt_s: f64, supply_v: f64, pulse: Option<PulseMicros>) {
         if let (ServoActivity::Moving, Some(pulse)) = (self.activity, pulse) {
             let reach_deg = self.config.slew_deg_per_s * supply_v / self.config.rated_v * dt_s;
-            let way_deg = self.reachable(self.config.angle_deg_from(pulse)) - self.angle_deg;
-            self.angle_deg += way_deg.clamp(-reach_deg, reach_deg);
+            let way_deg = self.reachable(self.config.angle_deg_from(pulse)) - self.motor_deg;
+            self.motor_deg += way_deg.clamp(-reach_deg, reach_deg);
+            let play_deg = self.play_deg();
+            self.angle_deg = self.angle_deg.clamp(self.motor_deg - play_deg, self.motor_deg + play_deg);
         }
     }
 
@@ -181,7 +200,13 @@ impl ServoHinge {
         self.stalled = true;
     }
 
+    /// The stops are the hinge's: the motor gets half the backlash further.
     fn reachable(&self, target_deg: f64) -> f64 {
-        target_deg.clamp(self.config.stop_low_deg, self.config.stop_high_deg)
+        let play_deg = self.play_deg();
+        target_deg.clamp(self.config.stop_low_deg - play_deg, self.config.stop_high_deg + play_deg)
+    }
+
+    fn play_deg(&self) -> f64 {
+        self.config.backlash_deg / 2.0
     }
 }

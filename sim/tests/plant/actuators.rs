@@ -85,6 +85,33 @@ fn a_servo_commanded_past_its_end_stop_stalls_there() {
     assert_near(rig.plant.supply_a(), servo.stall_ma / 1000.0, 1e-12, "stall current");
 }
 
+#[test]
+fn a_bowed_servo_is_off_its_line_in_the_middle_and_on_it_at_the_ends() {
+    let servo = ServoConfig { bow_deg: 20.0, ..ServoConfig::default() };
+    let mut rig = Rig::servo(servo);
+    for (pulse, angle) in [(500, 0.0), (1000, 67.5 + 15.0), (1500, 155.0), (2500, 270.0)] {
+        rig.servos[0] = Some(PulseMicros(pulse));
+        rig.run(1.0);
+        assert_near(servo_deg(&rig), angle, 1e-9, "at its angle");
+    }
+    let too_bowed = ServoConfig { bow_deg: 67.5, ..ServoConfig::default() };
+    let config = Config { servos: vec![too_bowed], ..Config::default() };
+    let refusal = Plant::new(&config).expect_err("a servo that turns back").to_string();
+    assert!(refusal.contains("servo 0: way less four times the bow"), "{refusal}");
+}
+
+#[test]
+fn a_hinge_with_backlash_stands_short_of_its_pulse_on_either_side_and_reaches_its_stops() {
+    let servo = ServoConfig { backlash_deg: 3.0, stop_high_deg: 200.0, ..ServoConfig::default() };
+    let mut rig = Rig::servo(servo);
+    for (pulse, angle) in [(1500, 133.5), (1000, 69.0), (1010, 69.0), (2500, 200.0)] {
+        rig.servos[0] = Some(PulseMicros(pulse));
+        rig.run(1.0);
+        assert_near(servo_deg(&rig), angle, 1e-9, "behind its motor");
+    }
+    assert_eq!(rig.plant.servo_hinges()[0].activity(), ServoActivity::Stalled);
+}
+
 proptest! {
     #[test]
     fn a_servo_never_leaves_its_stops_nor_outruns_its_slew_rate(

@@ -3,7 +3,7 @@
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 
-pub(crate) const SECTOR: usize = 512;
+pub(crate) const SECTOR: usize = 4_096;
 pub(crate) const SIZE: usize = 2 * SECTOR;
 const WORD: usize = 4;
 

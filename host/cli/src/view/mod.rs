@@ -1,7 +1,7 @@
 //! `zygote view`: a plan in the browser, from its stack to its shape; or a picture of it as that page draws it.
 //!
 //! ```text
-//! plan, schedule, rig -> Scene (JSON) -> Server (loopback, GET alone) -> the page, built into this program
+//! plan, schedule, rig -> Scene (JSON) -> `zygote_live::Server` (loopback alone) -> the page, built into this program
 //!                                            ^--- a picture, posted by a browser without a window
 //! ```
 
@@ -9,26 +9,20 @@ mod browser;
 mod motion;
 mod page;
 mod photograph;
-mod request;
 mod scene;
-mod server;
+mod showing;
 
 use crate::failure::{Failure, OrFail};
 use crate::output::say;
 use crate::{input, interrupt};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use photograph::Photograph;
-use server::Server;
-use std::io::{self, Write};
+pub(crate) use scene::{Run, SceneOf};
+pub(crate) use showing::{Showing, listen, page, until_interrupted};
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
-use std::time::Duration;
 use zygote_deployment::{Direction, Fingerprint, Schedule};
 use zygote_stacking::Plan;
-
-/// How often Ctrl-C is looked for.
-const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Arguments of `zygote view`.
 #[derive(Args)]
@@ -116,13 +110,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut plan = input::plan(&arguments.plan)?;
     let rig = arguments.rig.as_deref().map(input::rig).transpose()?;
     let schedule = schedule(arguments, &mut plan)?;
-    let json = scene::json(&arguments.plan, &plan, schedule.as_ref(), rig.as_ref())?;
-    let port = arguments.port;
-    let listener = server::bind(port)
-        .with_context(|| {
-            format!("port {port} of this computer can't be used; leave out --port for any that is free")
-        })
-        .or_bad_input()?;
+    let scene =
+        SceneOf { path: &arguments.plan, plan: &plan, schedule: schedule.as_ref(), rig: rig.as_ref() };
+    let json = scene.json(None)?;
+    let listener = listen(arguments.port, "--port")?;
     if let Some(png) = &arguments.png {
         let lacking = match arguments.picture.colour {
             Colour::Torque if rig.is_none() => {
@@ -136,22 +127,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         return Photograph { file: png, of: &arguments.picture }.take(listener, json);
     }
-    let page = page::page()?;
     let stop = interrupt::flag()?;
-    let server = Server::start(listener, page, json, None).context("nothing can be served").or_failed()?;
-    let address = server.address();
+    let server = zygote_live::Server::start(listener, page()?, None).or_failed()?;
+    server.put("/scene.json", json);
     if schedule.is_none() {
         say(format_args!("{name}: has no schedule, so its hinges open in the order of the tree"));
     }
-    say(format_args!("{name}: {address} (Ctrl-C ends it)"));
-    // Whoever started this program waits for that line.
-    io::stdout().flush().or_failed()?;
-    if !arguments.no_open && !browser::open(&address) {
-        say("No browser could be opened: open the address yourself.");
-    }
-    while !stop.load(Ordering::Relaxed) {
-        std::thread::sleep(PATIENCE);
-    }
+    Showing { what: &name, server: &server, no_open: arguments.no_open }.tell()?;
+    until_interrupted(&stop);
     Ok(())
 }
 

@@ -7,7 +7,7 @@ use anyhow::anyhow;
 const PAGE: Option<&[u8]> = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// The page.
-pub(super) fn page() -> Result<&'static [u8], Failure> {
+pub(crate) fn page() -> Result<&'static [u8], Failure> {
     PAGE.ok_or_else(|| {
         Failure::Failed(anyhow!(
             "this program was built without the viewer's page; make it with `cargo xtask viewer`, then build this program again"

@@ -1,9 +1,7 @@
 //! A picture as the page draws it: a browser without a window opens the page, which posts what it drew.
 
 use super::browser::{self, Unseen};
-use super::page::page;
-use super::server::{Brought, Server};
-use super::{Colour, PictureArguments};
+use super::{Colour, PictureArguments, page};
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
 use anyhow::{Context, anyhow};
@@ -11,6 +9,7 @@ use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
+use zygote_live::{Brought, Server};
 
 /// Thousands of panels drawn without a graphics card take seconds, a slow start of the browser some more.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -30,9 +29,8 @@ impl Photograph<'_> {
     pub(super) fn take(&self, listener: TcpListener, scene: Vec<u8>) -> Result<(), Failure> {
         let program = self.browser()?;
         let (sender, receiver) = channel();
-        let server = Server::start(listener, page()?, scene, Some(sender))
-            .context("nothing can be served")
-            .or_failed()?;
+        let server = Server::start(listener, page()?, Some(sender)).or_failed()?;
+        server.put("/scene.json", scene);
         let address = format!("{}#{}", server.address(), self.wishes());
         let name = program.display();
         let mut browser = Unseen::open(&program, &address, self.of.size)

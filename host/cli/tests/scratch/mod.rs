@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot set up its folder fails")]
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::{env, fs};
@@ -55,11 +55,30 @@ impl Scratch {
         Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }
 
+    #[allow(dead_code, reason = "not every test needs a path")]
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
     /// A command that goes on until it is dropped.
     #[allow(dead_code, reason = "not every test serves something")]
     pub(crate) fn start(&self, arguments: &[&str]) -> Server {
         let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
         Server(command.args(arguments).current_dir(&self.folder).stdout(Stdio::piped()).spawn().unwrap())
+    }
+
+    /// The command with something on its standard input, which then ends.
+    #[allow(dead_code, reason = "not every test tells it something")]
+    pub(crate) fn zygote_told(&self, arguments: &[&str], input: &str) -> Run {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_zygote"));
+        command.args(arguments).current_dir(&self.folder);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // It may have ended without reading all of it.
+        child.stdin.take().unwrap().write_all(input.as_bytes()).ok();
+        let run = child.wait_with_output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Run { code: run.status.code().unwrap(), output: text(run.stdout), errors: text(run.stderr) }
     }
 
     #[allow(dead_code, reason = "not every test reads files")]

@@ -123,6 +123,20 @@ fn is_alone(pulse: &Pulse) -> bool {
     }
 }
 
+/// As strict as the rig allows.
+pub(crate) fn limits(rig: &Rig, ceiling: Limits) -> Limits {
+    let whole = |value: f64, most: u32| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
+        let whole = value.round() as u32;
+        whole.min(most)
+    };
+    Limits {
+        supply: zygote_protocol::Milliamps(whole(rig.supply.limit.0 * 1e3, ceiling.supply.0)),
+        link_timeout: Millis(whole(rig.link.timeout.0 * 1e3, ceiling.link_timeout.0)),
+        ..ceiling
+    }
+}
+
 struct Bench<'a, T> {
     session: &'a mut Session<T>,
     calibration: &'a Calibration<'a>,
@@ -280,7 +294,7 @@ impl<T: Transport> Bench<'_, T> {
         let id = RigId::try_from(rig.id.as_str()).map_err(|_| DeployError::RigId { id: rig.id.clone() })?;
         self.run = self.run.wrapping_add(1);
         upload(self.session, self.run, &id, &steps)?;
-        start(self.session, self.run, id, self.limits())?;
+        start(self.session, self.run, id, limits(rig, self.session.info().ceiling))?;
         let mut batch = Batch::new(pulses);
         let progress = self.progress(progress::describe(self.hinges, pulses));
         let begun = self.session.now();
@@ -344,24 +358,6 @@ impl<T: Transport> Bench<'_, T> {
             if amps > 0.0 && volts > 0.0 {
                 self.ohms.insert(*at, volts / amps);
             }
-        }
-    }
-
-    /// As strict as the pulses allow.
-    fn limits(&self) -> Limits {
-        let ceiling = self.session.info().ceiling;
-        let whole = |value: f64, most: u32| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
-            let whole = value.round() as u32;
-            whole.min(most)
-        };
-        Limits {
-            supply: zygote_protocol::Milliamps(whole(
-                self.calibration.rig.supply.limit.0 * 1e3,
-                ceiling.supply.0,
-            )),
-            link_timeout: Millis(whole(self.calibration.rig.link.timeout.0 * 1e3, ceiling.link_timeout.0)),
-            ..ceiling
         }
     }
 

@@ -98,7 +98,7 @@ impl Rig {
         Ok(fittings)
     }
 
-    /// What was measured with one heater and thermistor says nothing of another.
+    /// What was measured with one servo, or one heater and thermistor, says nothing of another.
     fn hold_measured(&self, fittings: &[Fitting]) -> Result<(), RigError> {
         for measured in &self.measured {
             let Some(fitting) = fittings.get(measured.hinge) else { continue };
@@ -146,7 +146,9 @@ impl Rig {
                 place.drive = measured.drive;
             }
         }
-        if let Some((hinge, _)) = self.sim.hinges().find(|(hinge, _)| *hinge >= hinges) {
+        let own = self.sim.hinges().map(|(hinge, _)| hinge);
+        let mut own = own.chain(self.sim.servos().map(|(hinge, _)| hinge));
+        if let Some(hinge) = own.find(|hinge| *hinge >= hinges) {
             return Err(RigError::NoSuchHinge { place: self.places.of("sim.hinge"), hinge, last });
         }
         Ok((places, taken))

@@ -11,11 +11,12 @@ mod places;
 mod quantity;
 mod rating;
 mod rules;
+mod servo_curve;
 mod settings;
 mod sim;
 mod weight;
 
-pub use calibrated::CalibratedError;
+pub use calibrated::{CalibratedError, HeaterExpectation};
 pub use error::RigError;
 pub use fit::Fitting;
 pub use places::Place;
@@ -25,8 +26,9 @@ pub use quantity::{
     WattsPerSquareMetreKelvin,
 };
 pub use rating::{MOST_POINTS, Rating};
+pub use servo_curve::{SERVO_ANGLES, ServoCurve};
 pub use settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
-pub use sim::{Sim, SmaPlant};
+pub use sim::{ServoPlant, Sim, SmaPlant, TruePulse};
 pub use weight::{Gravity, Weight};
 
 use crate::calibration::Calibration;

@@ -3,8 +3,9 @@
 use super::places::Place;
 use super::quantity::{Amps, Celsius, Degrees, Seconds};
 use super::rating::Rating;
-use super::settings::{Drive, Kind, ServoSettings, SmaSettings, SpringSettings};
-use super::sim::SmaPlant;
+use super::servo_curve::ServoCurve;
+use super::settings::{Drive, Kind, SERVO_PULSES, ServoSettings, SmaSettings, SpringSettings};
+use super::sim::{ServoPlant, SmaPlant};
 use super::weight::Weight;
 use super::{Entry, Rig, RigError};
 use crate::heating;
@@ -20,8 +21,10 @@ const LONGEST_TIME: Seconds = Seconds(3600.0);
 /// Paper and plastic stand beside the hinges; nothing sane is set beyond.
 const HOTTEST: Celsius = Celsius(250.0);
 const COLDEST: Celsius = Celsius(-40.0);
-/// A pulse outside makes no servo move: 100 us to 10 ms.
-const SERVO_PULSES: (Seconds, Seconds) = (Seconds(1e-4), Seconds(1e-2));
+/// A simulated servo that bows further would turn back.
+const MOST_BOW: Degrees = Degrees(67.0);
+/// No hinge has stops beyond.
+const STOPS: (Degrees, Degrees) = (Degrees(-90.0), Degrees(360.0));
 
 /// Holds the rules of one table against its keys' places.
 pub(super) struct Rules<'a, P: Fn(&str) -> Place> {
@@ -102,11 +105,17 @@ impl Rig {
             };
             Rules { place, rig: self }.drive(&entry.drive)?;
         }
-        let shared = Rules { place: |key: &str| self.places.of(format!("sim.sma.{key}")), rig: self };
-        shared.sma_plant(self.sim.shared())?;
+        let (sma, servo) = self.sim.shared();
+        Rules { place: |key: &str| self.places.of(format!("sim.sma.{key}")), rig: self }.sma_plant(sma)?;
+        Rules { place: |key: &str| self.places.of(format!("sim.servo.{key}")), rig: self }
+            .servo_plant(servo)?;
         for (hinge, plant) in self.sim.hinges() {
             let place = |key: &str| self.places.of(format!("sim.hinge (hinge {hinge}): sma.{key}"));
             Rules { place, rig: self }.sma_plant(plant)?;
+        }
+        for (hinge, plant) in self.sim.servos() {
+            let place = |key: &str| self.places.of(format!("sim.hinge (hinge {hinge}): servo.{key}"));
+            Rules { place, rig: self }.servo_plant(plant)?;
         }
         let rules = Rules { place: |key: &str| self.places.of(key), rig: self };
         rules.between("sim.ambient", self.sim.ambient, COLDEST, HOTTEST)
@@ -277,8 +286,15 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
     }
 
     fn servo(&self, servo: &ServoSettings) -> Result<(), RigError> {
-        self.between("pulse_0", servo.pulse_0, SERVO_PULSES.0, SERVO_PULSES.1)?;
-        self.between("pulse_270", servo.pulse_270, SERVO_PULSES.0, SERVO_PULSES.1)?;
+        let (shortest, longest) = (servo.shortest_pulse, servo.longest_pulse);
+        self.between("shortest_pulse", shortest, SERVO_PULSES.0, SERVO_PULSES.1)?;
+        self.between("longest_pulse", longest, SERVO_PULSES.0, SERVO_PULSES.1)?;
+        self.below("shortest_pulse", shortest, "longest_pulse", longest)?;
+        self.between("pulse_0", servo.pulse_0, shortest, longest)?;
+        self.between("pulse_270", servo.pulse_270, shortest, longest)?;
+        for (angle, pulse) in servo.curve.iter().flat_map(ServoCurve::points) {
+            self.between(&format!("pulse at {angle}"), *pulse, shortest, longest)?;
+        }
         let differ = (servo.pulse_0.0 - servo.pulse_270.0).abs() > f64::EPSILON;
         self.hold(differ, "pulse_270", "another pulse than pulse_0", &servo.pulse_270.to_string())?;
         self.above_0("speed", servo.speed.0, servo.speed)?;
@@ -304,5 +320,21 @@ impl<P: Fn(&str) -> Place> Rules<'_, P> {
         self.below("martensite_finish", plant.martensite_finish, "austenite_start", plant.austenite_start)?;
         self.below("martensite_start", plant.martensite_start, "austenite_finish", plant.austenite_finish)?;
         self.at_least_0("load", plant.load.0, plant.load)
+    }
+
+    fn servo_plant(&self, plant: &ServoPlant) -> Result<(), RigError> {
+        for (key, pulse) in [("pulse_0", plant.pulse_0.0), ("pulse_270", plant.pulse_270.0)] {
+            if let Some(pulse) = pulse {
+                self.between(key, pulse, SERVO_PULSES.0, SERVO_PULSES.1)?;
+            }
+        }
+        let differ = plant.pulse_0.0.is_none() || plant.pulse_0 != plant.pulse_270;
+        self.hold(differ, "pulse_270", "another pulse than pulse_0", "the same")?;
+        self.between("bow", plant.bow, Degrees(-MOST_BOW.0), MOST_BOW)?;
+        self.at_least_0("dead_band", plant.dead_band.0, plant.dead_band)?;
+        self.at_least_0("backlash", plant.backlash.0, plant.backlash)?;
+        self.between("stop_low", plant.stop_low, STOPS.0, STOPS.1)?;
+        self.between("stop_high", plant.stop_high, STOPS.0, STOPS.1)?;
+        self.below("stop_low", plant.stop_low, "stop_high", plant.stop_high)
     }
 }

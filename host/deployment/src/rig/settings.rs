@@ -5,15 +5,19 @@ use super::quantity::{
     Amps, Celsius, DegreesPerSecond, Joules, Kelvins, KelvinsPerWatt, NewtonMetres, Ohms, Seconds,
 };
 use super::rating::Rating;
+use super::servo_curve::ServoCurve;
 use serde::Deserialize;
 
-/// Defines a set of settings, and the table of a rig file in which each of them may stand or not.
+/// Defines a set of settings, and the table of a rig file in which each of them may stand or not. What is `measured` stands in no rig
+/// file: a calibration has it.
 macro_rules! settings {
-    ($(#[$doc:meta])* $name:ident, $table:ident { $($(#[$field_doc:meta])* $field:ident: $ty:ty = $default:expr,)+ }) => {
+    ($(#[$doc:meta])* $name:ident, $table:ident { $($(#[$field_doc:meta])* $field:ident: $ty:ty = $default:expr,)+ }
+     $(measured { $(#[$measured_doc:meta])* $measured:ident: $measured_ty:ty })?) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub struct $name {
             $($(#[$field_doc])* pub $field: $ty,)+
+            $($(#[$measured_doc])* pub $measured: Option<$measured_ty>,)?
         }
 
         #[derive(Debug, Clone, Default, Deserialize)]
@@ -25,12 +29,18 @@ macro_rules! settings {
         impl $name {
             /// A hinge's own setting, else the shared one, else the default.
             pub(super) fn resolve(own: Option<&$table>, shared: &$table) -> Self {
-                Self { $($field: own.and_then(|own| own.$field).or(shared.$field).unwrap_or($default),)+ }
+                Self {
+                    $($field: own.and_then(|own| own.$field).or(shared.$field).unwrap_or($default),)+
+                    $($measured: None,)?
+                }
             }
         }
     };
 }
 pub(super) use settings;
+
+/// A pulse outside makes no servo move: 100 us to 10 ms.
+pub(super) const SERVO_PULSES: (Seconds, Seconds) = (Seconds(1e-4), Seconds(1e-2));
 
 settings! {
     /// How a shape-memory hinge is heated, and what is known of it.
@@ -75,6 +85,10 @@ settings! {
         pulse_0: Seconds = Seconds(500e-6),
         /// Pulse that holds the hinge at an opening angle of 270 degrees.
         pulse_270: Seconds = Seconds(2500e-6),
+        /// Nothing drives it with a shorter pulse.
+        shortest_pulse: Seconds = SERVO_PULSES.0,
+        /// Nothing drives it with a longer pulse.
+        longest_pulse: Seconds = SERVO_PULSES.1,
         /// Speed at which the pulse is led from one angle to the other.
         speed: DegreesPerSecond = DegreesPerSecond(90.0),
         /// Wait after the last pulse change, before the hinge counts as opened.
@@ -85,6 +99,10 @@ settings! {
         hold_current: Amps = Amps(0.01),
         /// The most that it lifts or holds.
         torque: Rating = Rating::constant(NewtonMetres(0.17)),
+    }
+    measured {
+        /// Pulses by opening angle as they were found; they count more than `pulse_0` and `pulse_270`.
+        curve: ServoCurve
     }
 }
 

@@ -1,7 +1,10 @@
 //! `[sim]`: what only the simulator reads, the truth that the rig's own settings are a guess of.
 
-use super::quantity::{Celsius, NewtonMetres, Ohms, WattsPerKelvin, WattsPerSquareMetreKelvin};
-use super::settings::settings;
+use super::Rig;
+use super::quantity::{
+    Celsius, Degrees, NewtonMetres, Ohms, Seconds, WattsPerKelvin, WattsPerSquareMetreKelvin,
+};
+use super::settings::{Drive, settings};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -27,6 +30,31 @@ settings! {
     }
 }
 
+/// A pulse of a simulated servo; none where it is as the rig file guesses it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(transparent)]
+pub struct TruePulse(pub Option<Seconds>);
+
+settings! {
+    /// Physics of a simulated servo hinge.
+    ServoPlant, ServoPlantTable {
+        /// Pulse that commands 0 degrees; beyond it nothing changes.
+        pulse_0: TruePulse = TruePulse(None),
+        /// Pulse that commands 270 degrees; beyond it nothing changes.
+        pulse_270: TruePulse = TruePulse(None),
+        /// How far its angle is above a straight line in the middle.
+        bow: Degrees = Degrees(0.0),
+        /// Error below which it doesn't move.
+        dead_band: Degrees = Degrees(0.4),
+        /// Play between its motor and the hinge.
+        backlash: Degrees = Degrees(0.0),
+        /// Lower end stop of the hinge.
+        stop_low: Degrees = Degrees(0.0),
+        /// Upper end stop of the hinge.
+        stop_high: Degrees = Degrees(270.0),
+    }
+}
+
 /// What only the simulator reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sim {
@@ -35,7 +63,9 @@ pub struct Sim {
     /// Seed of all noise.
     pub seed: u64,
     sma: SmaPlant,
+    servo: ServoPlant,
     hinges: BTreeMap<usize, SmaPlant>,
+    servos: BTreeMap<usize, ServoPlant>,
 }
 
 impl Sim {
@@ -44,14 +74,37 @@ impl Sim {
         self.hinges.get(&hinge).unwrap_or(&self.sma)
     }
 
-    /// Hinges with physics of their own.
+    /// The physics of one servo hinge.
+    pub fn servo_plant(&self, hinge: usize) -> &ServoPlant {
+        self.servos.get(&hinge).unwrap_or(&self.servo)
+    }
+
+    /// Shape-memory hinges with physics of their own.
     pub(super) fn hinges(&self) -> impl Iterator<Item = (usize, &SmaPlant)> {
         self.hinges.iter().map(|(hinge, plant)| (*hinge, plant))
     }
 
+    /// Servo hinges with physics of their own.
+    pub(super) fn servos(&self) -> impl Iterator<Item = (usize, &ServoPlant)> {
+        self.servos.iter().map(|(hinge, plant)| (*hinge, plant))
+    }
+
     /// The physics of every other hinge.
-    pub(super) fn shared(&self) -> &SmaPlant {
-        &self.sma
+    pub(super) fn shared(&self) -> (&SmaPlant, &ServoPlant) {
+        (&self.sma, &self.servo)
+    }
+}
+
+impl Rig {
+    /// The pulses at which a hinge's simulated servo stands at 0 and at 270 degrees: the simulator's own, else what the rig file says of
+    /// it, whatever was measured since.
+    pub fn true_pulses(&self, hinge: usize) -> (Seconds, Seconds) {
+        let guess = match self.drive_of(hinge) {
+            Drive::Servo(servo) => servo,
+            Drive::Sma(_) | Drive::Spring(_) => self.servo,
+        };
+        let truth = self.sim.servo_plant(hinge);
+        (truth.pulse_0.0.unwrap_or(guess.pulse_0), truth.pulse_270.0.unwrap_or(guess.pulse_270))
     }
 }
 
@@ -61,6 +114,7 @@ pub(super) struct SimTable {
     ambient: Option<Celsius>,
     seed: u64,
     sma: SmaPlantTable,
+    servo: ServoPlantTable,
     hinge: Vec<HingeTable>,
 }
 
@@ -68,7 +122,8 @@ pub(super) struct SimTable {
 #[serde(deny_unknown_fields)]
 struct HingeTable {
     hinge: usize,
-    sma: SmaPlantTable,
+    sma: Option<SmaPlantTable>,
+    servo: Option<ServoPlantTable>,
 }
 
 impl SimTable {
@@ -77,10 +132,20 @@ impl SimTable {
             ambient: self.ambient.unwrap_or(ambient),
             seed: self.seed,
             sma: SmaPlant::resolve(None, &self.sma),
+            servo: ServoPlant::resolve(None, &self.servo),
             hinges: self
                 .hinge
                 .iter()
-                .map(|entry| (entry.hinge, SmaPlant::resolve(Some(&entry.sma), &self.sma)))
+                .filter_map(|entry| {
+                    Some((entry.hinge, SmaPlant::resolve(Some(entry.sma.as_ref()?), &self.sma)))
+                })
+                .collect(),
+            servos: self
+                .hinge
+                .iter()
+                .filter_map(|entry| {
+                    Some((entry.hinge, ServoPlant::resolve(Some(entry.servo.as_ref()?), &self.servo)))
+                })
                 .collect(),
         }
     }

@@ -124,6 +124,31 @@ fn values_that_cannot_work_are_refused_with_their_place() {
 }
 
 #[test]
+fn a_simulated_servo_is_what_the_rig_file_says_unless_the_simulators_truth_differs() {
+    let servos = "[hinges]\ndefault = \"servo\"\n[servo]\npulse_0 = \"600 us\"\n[[hinge]]\nhinge = 1\nservo = { pulse_270 = \"2300 us\" }\n\
+                  [sim.servo]\nbacklash = \"1 deg\"\n[[sim.hinge]]\nhinge = 2\nservo = { pulse_0 = \"650 us\", bow = \"-9 deg\" }\n";
+    let rig = rig(servos);
+    let pulses = |hinge| {
+        let (pulse_0, pulse_270) = rig.true_pulses(hinge);
+        ((pulse_0.0 * 1e6).round(), (pulse_270.0 * 1e6).round())
+    };
+    assert_eq!([pulses(0), pulses(1), pulses(2)], [(600.0, 2500.0), (600.0, 2300.0), (650.0, 2500.0)]);
+    let (other, own) = (rig.sim.servo_plant(1), rig.sim.servo_plant(2));
+    assert_eq!((other.bow, own.bow, own.backlash), (Degrees(0.0), Degrees(-9.0), Degrees(1.0)));
+    let bad = |extra: &str| refusal(&rig_text(extra));
+    assert!(
+        bad("[sim.servo]\nbow = \"70 deg\"\n")
+            .starts_with("rig.toml:14: sim.servo.bow: expected -67 deg to 67 deg")
+    );
+    assert!(
+        bad("[sim.servo]\nstop_high = \"-1 deg\"\n")
+            .contains("sim.servo.stop_low: expected less than stop_high")
+    );
+    let twice = bad("[[sim.hinge]]\nhinge = 0\nservo = { pulse_0 = \"1 ms\", pulse_270 = \"1 ms\" }\n");
+    assert!(twice.contains("sim.hinge (hinge 0): servo.pulse_270: expected another pulse"), "{twice}");
+}
+
+#[test]
 fn a_gain_watch_that_ends_after_the_heating_is_refused() {
     insta::assert_snapshot!(changed("max_on", "gain_window = \"21 s\"\nmax_on"), @"rig.toml:15: sma.gain_window: expected at most max_on = 20 s, found 21 s");
 }

@@ -5,6 +5,9 @@ use serde_json::{Value, json};
 /// The format's code for a 32-bit float.
 const FLOAT: u32 = 5126;
 
+/// The format's code for what a graphics card draws.
+const VERTICES: u32 = 34962;
+
 /// The buffer so far.
 #[derive(Default)]
 pub(super) struct Binary {
@@ -23,6 +26,15 @@ impl Binary {
     pub(super) fn rows(&mut self, rows: &[Vec<f32>]) -> usize {
         let kind = if rows.first().is_some_and(|row| row.len() == 4) { "VEC4" } else { "VEC3" };
         self.add(kind, rows.iter().map(Vec::as_slice))
+    }
+
+    /// Adds rows of three numbers that are drawn; gives the index of their accessor.
+    pub(super) fn vertices(&mut self, rows: &[Vec<f32>]) -> usize {
+        let accessor = self.rows(rows);
+        if let Some(view) = self.views.last_mut() {
+            view["target"] = json!(VERTICES);
+        }
+        accessor
     }
 
     fn add<'a>(&mut self, kind: &str, rows: impl Iterator<Item = &'a [f32]> + Clone) -> usize {

@@ -42,14 +42,27 @@ pub enum SceneError {
 /// # Errors
 /// [`SceneError`] if the plan is no tree, or its schedule isn't its own.
 pub fn gltf(plan: &Plan) -> Result<Vec<u8>, SceneError> {
+    write(plan, Some(&Timeline::new(plan)?))
+}
+
+/// The target alone, as it stands in the plan, at rest: for programs that don't play.
+///
+/// # Errors
+/// [`SceneError`] if the plan is no tree.
+pub fn gltf_of_target(plan: &Plan) -> Result<Vec<u8>, SceneError> {
+    write(plan, None)
+}
+
+/// The scene on its way through a timeline, or without one at its end.
+fn write(plan: &Plan, timeline: Option<&Timeline>) -> Result<Vec<u8>, SceneError> {
     let kinematics = Kinematics::new(plan).map_err(TimelineError::from)?;
-    let timeline = Timeline::new(plan)?;
     let mut binary = Binary::default();
     let plates = plate::plates(plan, &mut binary);
     let mut nodes: Vec<_> = (0..plan.panels())
         .map(|panel| json!({ "name": format!("panel {panel}"), "mesh": plates.mesh_of_panel[panel] }))
         .collect();
-    place(&mut nodes[plan.root], kinematics.root_pose(plan.thickness));
+    let (rest, thickness) = if timeline.is_some() { (0.0, plan.thickness) } else { (1.0, 0.0) };
+    place(&mut nodes[plan.root], kinematics.root_pose(thickness));
     let mut children = vec![Vec::new(); plan.panels()];
     let (mut channels, mut samplers) = (Vec::new(), Vec::new());
     let from_hinge = turned_frames(plan, &kinematics);
@@ -59,9 +72,10 @@ pub fn gltf(plan: &Plan) -> Result<Vec<u8>, SceneError> {
                 * joint.parent_from_child(fraction, plan.thickness)
                 * from_hinge[joint.child]
         };
-        place(&mut nodes[joint.child], local(0.0));
+        place(&mut nodes[joint.child], local(rest));
         nodes[joint.child]["extras"] = json!({ "hinge": joint.hinge });
         children[joint.parent].push(joint.child);
+        let Some(timeline) = timeline else { continue };
         let span = timeline.span(joint.hinge).unwrap_or_default();
         for keys in Keys::of(joint, span, &local) {
             channels.push(json!({
@@ -76,9 +90,15 @@ pub fn gltf(plan: &Plan) -> Result<Vec<u8>, SceneError> {
     for (node, children) in nodes.iter_mut().zip(children).filter(|(_, children)| !children.is_empty()) {
         node["children"] = json!(children);
     }
-    // The zygote's z is up, glTF's is y.
-    let upright = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
-    nodes.push(json!({ "name": "zygote", "rotation": quaternion(upright), "children": [plan.root] }));
+    // The plan's z is up, glTF's is y.
+    let upright = DAffine3::from_quat(DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2));
+    let (name, upright) = match timeline {
+        Some(_) => ("zygote", upright),
+        None => ("target", upright * kinematics.target_from_zygote()),
+    };
+    let mut whole = json!({ "name": name, "children": [plan.root] });
+    place(&mut whole, upright);
+    nodes.push(whole);
     let mut document = json!({
         "asset": { "version": "2.0", "generator": concat!("zygote ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,

@@ -73,7 +73,7 @@ impl Faces {
     }
 
     fn accessors(&self, binary: &mut Binary) -> [usize; 2] {
-        [binary.rows(&self.corners), binary.rows(&self.normals)]
+        [binary.vertices(&self.corners), binary.vertices(&self.normals)]
     }
 }
 

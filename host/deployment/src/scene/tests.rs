@@ -17,8 +17,11 @@ struct Played {
 
 impl Played {
     fn new(plan: &Plan) -> Self {
-        let file = gltf(plan).expect("a scene");
-        let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&file).expect("valid glTF");
+        Self::read(&gltf(plan).expect("a scene"))
+    }
+
+    fn read(file: &[u8]) -> Self {
+        let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(file).expect("valid glTF");
         Self { document, buffer: blob.expect("a buffer") }
     }
 
@@ -136,6 +139,21 @@ fn at_rest_it_is_the_zygote() {
         root.animations.clear();
         played.document = gltf::Document::from_json(root).expect("valid without motion");
         assert_same(&plan, &played.panels(0.0), &moving);
+    }
+}
+
+#[test]
+fn the_target_alone_stands_as_in_the_plan_and_does_not_move() {
+    for plan in real_plans() {
+        let still = Played::read(&gltf_of_target(&plan).expect("a scene"));
+        assert_eq!(still.document.animations().count(), 0);
+        let found: Vec<_> = still.panels(0.0).iter().map(|[middle, _]| *middle).collect();
+        for (panel, corners) in plan.target.iter().enumerate() {
+            let [a, b] = [corners[0], corners[2]].map(|corner| DVec3::from_array(corner.map(f64::from)));
+            let middle = (a + b) / 2.0;
+            let off = found[panel].distance(DVec3::new(middle.x, middle.z, -middle.y));
+            assert!(off < SAME, "{}: panel {panel} is off by {off}", plan.source.model);
+        }
     }
 }
 

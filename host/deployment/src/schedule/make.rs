@@ -95,8 +95,9 @@ impl Schedule {
             .hinges
             .iter()
             .zip(&fittings)
-            .map(|(hinge, fitting)| Cost::new(rig, hinge, &fitting.drive))
-            .collect();
+            .enumerate()
+            .map(|(number, (hinge, fitting))| Cost::new(rig, number, hinge, &fitting.drive))
+            .collect::<Result<_, _>>()?;
         let tasks =
             order.hinges.iter().map(|hinge| task(&costs[*hinge], &fittings[*hinge], limits)).collect();
         let limit = Milliamps::at_most(rig.supply.limit);

@@ -2,7 +2,7 @@
 
 use super::units::{CentiCelsius, Micros, Milliamps, Millis};
 use crate::heating;
-use crate::rig::{Drive, Kind, Rig, Seconds, ServoSettings, SmaSettings, SpringSettings};
+use crate::rig::{Degrees, Drive, Kind, Rig, RigError, Seconds, ServoSettings, SmaSettings, SpringSettings};
 use serde::{Deserialize, Serialize};
 use zygote_stacking::{Hinge, HingeKind};
 
@@ -156,12 +156,15 @@ pub(crate) const fn start_opening_deg(hinge: &Hinge) -> u16 {
 }
 
 impl Cost {
-    /// What moving `hinge` with `drive` takes.
-    pub(crate) fn new(rig: &Rig, hinge: &Hinge, drive: &Drive) -> Self {
+    /// What moving `hinge`, which has this number, with `drive` takes.
+    ///
+    /// # Errors
+    /// [`RigError`] for a servo that doesn't reach the hinge's angles.
+    pub(crate) fn new(rig: &Rig, number: usize, hinge: &Hinge, drive: &Drive) -> Result<Self, RigError> {
         match drive {
-            Drive::Sma(sma) => Self::sma(rig, sma),
-            Drive::Servo(servo) => Self::servo(hinge, servo),
-            Drive::Spring(spring) => Self::spring(spring),
+            Drive::Sma(sma) => Ok(Self::sma(rig, sma)),
+            Drive::Servo(servo) => Self::servo(rig, number, hinge, servo),
+            Drive::Spring(spring) => Ok(Self::spring(spring)),
         }
     }
 
@@ -184,24 +187,21 @@ impl Cost {
         }
     }
 
-    fn servo(hinge: &Hinge, servo: &ServoSettings) -> Self {
+    fn servo(rig: &Rig, number: usize, hinge: &Hinge, servo: &ServoSettings) -> Result<Self, RigError> {
         let (from, to) = (f64::from(start_opening_deg(hinge)), f64::from(hinge.opening_deg));
-        let pulse = |deg: f64| {
-            let share = deg / 270.0;
-            Micros::nearest(Seconds(servo.pulse_0.0 + share * (servo.pulse_270.0 - servo.pulse_0.0)))
-        };
+        let pulse = |deg: f64| Ok::<_, RigError>(Micros::nearest(rig.pulse(number, servo, Degrees(deg))?));
         let motion = ServoMotion {
-            from: pulse(from),
-            to: pulse(to),
+            from: pulse(from)?,
+            to: pulse(to)?,
             duration: Millis::at_least(Seconds((to - from).abs() / servo.speed.0)),
             settle: Millis::at_least(servo.settle),
         };
-        Self {
+        Ok(Self {
             motion: Motion::Servo(motion),
             duration: motion.duration + motion.settle,
             current: Milliamps::at_least(servo.current),
             hold_current: Milliamps::at_least(servo.hold_current),
-        }
+        })
     }
 
     /// The current counts for the settling too: a little unused supply is cheaper than a second figure a step.

@@ -62,7 +62,7 @@ fn whole_up(value: f64) -> u64 {
 
 impl Millis {
     /// At least as long as `time`.
-    pub(crate) fn at_least(time: Seconds) -> Self {
+    pub fn at_least(time: Seconds) -> Self {
         Self(whole_up(time.0 * 1e3))
     }
 }
@@ -81,7 +81,7 @@ impl Milliamps {
     }
 
     /// At most as much as `current`.
-    pub(crate) fn at_most(current: Amps) -> Self {
+    pub fn at_most(current: Amps) -> Self {
         Self(u64::try_from(whole((current.0 * 1e3 + ROUNDING).floor())).unwrap_or(0))
     }
 }

@@ -241,7 +241,7 @@ impl Schedule {
         let mut users: BTreeMap<(usize, Kind, u16), usize> = BTreeMap::new();
         for (index, step) in self.steps.iter().enumerate() {
             let (hinge, fitting) = (&plan.hinges[step.hinge], &fittings[step.hinge]);
-            let cost = Cost::new(rig, hinge, &fitting.drive);
+            let cost = Cost::new(rig, step.hinge, hinge, &fitting.drive)?;
             let same = |key, expected: String, found: String| {
                 if expected == found { Ok(()) } else { Err(self.refuse(index, key, expected, found)) }
             };

@@ -61,6 +61,7 @@ impl Summary {
             Ending::Report(report) => match report.outcome {
                 Outcome::Deployed | Outcome::Folded => "deployed",
                 Outcome::Stopped => "stopped",
+                Outcome::Paused => "paused",
                 Outcome::Fault(_) => "fault",
                 Outcome::Lost(_) => "lost",
             },

@@ -202,6 +202,7 @@ fn afterwards() -> Seconds {
 pub(super) enum OutcomeName {
     Deployed,
     Stopped,
+    Paused,
     Fault,
     Lost,
     Refused,

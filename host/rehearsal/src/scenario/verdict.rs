@@ -165,6 +165,7 @@ fn outcome(expect: &ExpectTable, rehearsed: &Rehearsed) -> Row {
             let (name, why) = match &report.outcome {
                 Outcome::Deployed | Outcome::Folded => (OutcomeName::Deployed, String::new()),
                 Outcome::Stopped => (OutcomeName::Stopped, String::new()),
+                Outcome::Paused => (OutcomeName::Paused, String::new()),
                 Outcome::Fault(why) => (OutcomeName::Fault, why.clone()),
                 Outcome::Lost(why) => (OutcomeName::Lost, why.clone()),
             };

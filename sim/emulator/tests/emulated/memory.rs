@@ -1,15 +1,17 @@
 //! What outlives power, in the emulated flash: settings, records that are spoiled, and a supply that fails while one is written.
 
 use crate::host::{Host, plant, program};
+use crate::link_host::heat;
 use zygote_emulator::{ElfError, Image};
 use zygote_protocol::{
-    CentiCelsius, Command, MemoryReport, MemoryState, Millis, Refusal, Reply, ResetCause, Settings,
+    Actuator, Calibration, CentiCelsius, Command, HeaterCalibration, MemoryReport, MemoryState, Milliamps,
+    Millis, Refusal, RefusalCode, Reply, ResetCause, Settings,
 };
 
 /// The two sectors of records, and the size of a record.
 const SECTORS: [u32; 2] = [0x0800_4000, 0x0800_8000];
 const SECTOR: u32 = 0x4000;
-const RECORD: u32 = 64;
+const RECORD: u32 = 512;
 
 fn in_force(host: &mut Host) -> (Settings, Settings) {
     match host.ask(Command::Settings) {
@@ -110,7 +112,7 @@ fn s13_a_supply_that_fails_while_a_record_is_written_leaves_the_old_settings_or_
     let [old, new] = [9_000, 8_000].map(|ceiling| lowered(&mut host, ceiling));
     assert_eq!(configure(&mut host, old), Ok(Reply::Done));
     // Some of the words of a record, the first and the checksum among them.
-    for (word, seed) in [1, 2, 3, 9, 16].into_iter().zip(2..) {
+    for (word, seed) in [1, 2, 3, 9, 128].into_iter().zip(2..) {
         host.board.cut_power_in_flash(word);
         host.send(Command::Configure(new));
         host.pass_until(Millis(1_000), |host| host.board.is_off());
@@ -145,6 +147,49 @@ fn s13_a_supply_that_fails_while_a_sector_is_erased_leaves_the_old_settings() {
     assert_eq!(configure(&mut host, new), Ok(Reply::Done));
     power_cycle(&mut host, 3);
     assert_eq!(in_force(&mut host).0, new);
+}
+
+/// What is known of the heater of this channel.
+fn known(host: &mut Host, channel: u16) -> Option<HeaterCalibration> {
+    match host.ask(Command::Calibration(Actuator::Heater(channel))) {
+        Ok(Reply::Calibration(Calibration::Heater { known, .. })) => known,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn calibrate(host: &mut Host, channel: u16, known: HeaterCalibration) -> Result<Reply, Refusal> {
+    host.ask(Command::Calibrate(Calibration::Heater { channel, known: Some(known) }))
+}
+
+#[test]
+#[ignore = "needs the board's program: cargo xtask emulator"]
+fn s6_calibrations_outlive_power_beside_the_settings_and_bind_the_steps_of_later_sessions() {
+    let mut host = Host::connected(&plant());
+    let heater = HeaterCalibration {
+        current: Milliamps(200),
+        gain: CentiCelsius(4_000),
+        window: Millis(3_000),
+        opens_at: None,
+    };
+    let weaker = HeaterCalibration { gain: CentiCelsius(100), ..heater };
+    let settings = lowered(&mut host, 12_000);
+    assert_eq!(calibrate(&mut host, 0, weaker), Ok(Reply::Done));
+    assert_eq!(configure(&mut host, settings), Ok(Reply::Done));
+    assert_eq!(calibrate(&mut host, 15, heater), Ok(Reply::Done));
+    power_cycle(&mut host, 2);
+    assert_eq!(in_force(&mut host).0, settings);
+    assert_eq!([0, 14, 15].map(|channel| known(&mut host, channel)), [Some(weaker), None, Some(heater)]);
+    assert_eq!(host.upload(&[heat(0, &[])]), Ok(Reply::Done));
+    assert_eq!(calibrate(&mut host, 0, heater), Ok(Reply::Done));
+    // A record that ageing spoils falls back to what was known before.
+    let spoiled = newest(&host) + 300;
+    host.board.spoil_flash(spoiled, 1);
+    power_cycle(&mut host, 3);
+    assert_eq!([0, 15].map(|channel| known(&mut host, channel)), [Some(weaker), Some(heater)]);
+    assert_eq!(calibrate(&mut host, 0, heater), Ok(Reply::Done));
+    power_cycle(&mut host, 4);
+    let refusal = host.upload(&[heat(0, &[])]).unwrap_err();
+    assert_eq!((refusal.code, refusal.expected), (RefusalCode::CalibratedGain, 1_000), "{refusal:?}");
 }
 
 #[test]

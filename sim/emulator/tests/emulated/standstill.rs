@@ -4,8 +4,8 @@ use crate::host::{Host, plant};
 use crate::link_host::LIMITS;
 use zygote_protocol::{Command, Limits, Micros, Millis, Reply, Settings};
 
-/// Records of 64 bytes that fill both sectors of 16 KiB, of which the second starts blank: after so many changes one was erased.
-const RECORDS: u32 = 512;
+/// Records of 512 bytes fill both sectors of 16 KiB by 64, of which the second starts blank: after so many changes three were erased.
+const RECORDS: u32 = 128;
 
 /// How far the board's clock is behind the true time, in microseconds, but for the way of the answer.
 fn behind(host: &mut Host) -> u64 {

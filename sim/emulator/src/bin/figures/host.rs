@@ -223,5 +223,7 @@ fn name(commands: &[Command]) -> &'static str {
         Command::Configure(_) => "Configure",
         Command::Readings { .. } => "Readings",
         Command::Memory => "Memory",
+        Command::Calibration(_) => "Calibration",
+        Command::Calibrate(_) => "Calibrate",
     }
 }

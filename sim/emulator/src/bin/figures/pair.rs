@@ -1,7 +1,7 @@
 //! One core twice: on the emulated processor, counted, and on this machine. Both must do the same to the bit.
 
 use crate::call::CHANNELS;
-use crate::config::config;
+use crate::config::{config, kept};
 use crate::target::{Applied, Entry, Target, TargetError, Words};
 use std::collections::BTreeMap;
 use zygote_core::{Core, Duty, Inputs};
@@ -83,6 +83,7 @@ impl Pair {
     /// Both start with what they have kept.
     pub(crate) fn reset(&mut self, now: Micros, boot: u32) -> Result<(), PairError> {
         self.native = Core::new(config(boot), now, Retained::from_words(&self.kept).recall());
+        self.native.restore(kept());
         let taken = self.target.reset(now, boot, &self.kept)?;
         self.note(Entry::New, "", taken);
         (self.changes, self.energised) = (0, false);

@@ -10,21 +10,25 @@ const MOST_HEAD: usize = 16 * 1024;
 /// A longer body is no picture of ours.
 const MOST_BODY: usize = 64 * 1024 * 1024;
 const MOST_HEADERS: usize = 64;
+/// Where lines that stay open begin.
+const LIVE: &str = "/live";
 
 /// What is asked for.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Request {
+pub(crate) enum Request {
     /// Something to read.
     Get(String),
     /// The same, without its body.
     Head(String),
     /// Something brought.
     Post(String, Vec<u8>),
+    /// A line that stays open both ways, with the browser's key.
+    Live(String),
 }
 
 /// What is answered where there is nothing to read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Refusal {
+pub(crate) enum Refusal {
     /// It isn't HTTP, or too long.
     Malformed,
     /// It was sent to another name than this address, or by a page from elsewhere.
@@ -33,6 +37,8 @@ pub(super) enum Refusal {
     NotFound,
     /// The path isn't for this method.
     Method,
+    /// As many lines are open as there may be.
+    Busy,
 }
 
 impl Refusal {
@@ -42,6 +48,7 @@ impl Refusal {
             Self::Foreign => "403 Forbidden",
             Self::NotFound => "404 Not Found",
             Self::Method => "405 Method Not Allowed",
+            Self::Busy => "503 Service Unavailable",
         }
     }
 }
@@ -50,7 +57,7 @@ impl Refusal {
 ///
 /// # Errors
 /// What the connection says; the refusal is inside.
-pub(super) fn read(stream: &mut impl Read, port: u16) -> io::Result<Result<Request, Refusal>> {
+pub(crate) fn read(stream: &mut impl Read, port: u16) -> io::Result<Result<Request, Refusal>> {
     let mut bytes = Vec::new();
     let head = loop {
         if let Some(end) = bytes.windows(4).position(|four| four == b"\r\n\r\n") {
@@ -60,10 +67,17 @@ pub(super) fn read(stream: &mut impl Read, port: u16) -> io::Result<Result<Reque
             return Ok(Err(Refusal::Malformed));
         }
     };
-    let (method, path, length) = match parse(&bytes[..head], port) {
+    let Parsed { method, path, length, key } = match parse(&bytes[..head], port) {
         Ok(parsed) => parsed,
         Err(refusal) => return Ok(Err(refusal)),
     };
+    if path == LIVE {
+        // What follows before the line is granted is no browser's.
+        return Ok(key
+            .filter(|_| method == "GET" && bytes.len() == head)
+            .map(Request::Live)
+            .ok_or(Refusal::Malformed));
+    }
     Ok(match method.as_str() {
         "GET" => Ok(Request::Get(path)),
         "HEAD" => Ok(Request::Head(path)),
@@ -89,8 +103,17 @@ fn more(stream: &mut impl Read, bytes: &mut Vec<u8>) -> io::Result<bool> {
     Ok(read > 0)
 }
 
-/// Method, path and length of the body.
-fn parse(head: &[u8], port: u16) -> Result<(String, String, usize), Refusal> {
+/// The head of a request.
+struct Parsed {
+    method: String,
+    path: String,
+    /// Of the body.
+    length: usize,
+    /// The key of a browser that wants a line both ways.
+    key: Option<String>,
+}
+
+fn parse(head: &[u8], port: u16) -> Result<Parsed, Refusal> {
     let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
     let mut request = httparse::Request::new(&mut headers);
     request.parse(head).map_err(|_| Refusal::Malformed)?;
@@ -118,14 +141,21 @@ fn parse(head: &[u8], port: u16) -> Result<(String, String, usize), Refusal> {
         None => 0,
     };
     let path = path.split_once('?').map_or(path, |(path, _)| path);
-    Ok((method.to_owned(), path.to_owned(), length))
+    let upgrades = all("upgrade").any(|to| to.eq_ignore_ascii_case("websocket"))
+        && all("sec-websocket-version").any(|version| version == "13");
+    let key = all("sec-websocket-key").next().filter(|_| upgrades).map(ToOwned::to_owned);
+    if path == LIVE && all("origin").count() == 0 {
+        // A browser always says whose page asks.
+        return Err(Refusal::Foreign);
+    }
+    Ok(Parsed { method: method.to_owned(), path: path.to_owned(), length, key })
 }
 
 /// Answers with a body.
 ///
 /// # Errors
 /// What the connection says.
-pub(super) fn answer(stream: &mut impl Write, kind: &str, body: &[u8], with_body: bool) -> io::Result<()> {
+pub(crate) fn answer(stream: &mut impl Write, kind: &str, body: &[u8], with_body: bool) -> io::Result<()> {
     write!(
         stream,
         "HTTP/1.1 200 OK\r\nContent-Type: {kind}\r\nContent-Length: {}\r\n{GUARDS}\r\n",
@@ -137,11 +167,23 @@ pub(super) fn answer(stream: &mut impl Write, kind: &str, body: &[u8], with_body
     stream.flush()
 }
 
+/// Grants a line that stays open both ways; `accept` is what the browser's key comes to.
+///
+/// # Errors
+/// What the connection says.
+pub(crate) fn grant(stream: &mut impl Write, accept: &str) -> io::Result<()> {
+    write!(
+        stream,
+        "HTTP/1.1 101 Switching Protocols\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Accept: {accept}\r\n\r\n"
+    )?;
+    stream.flush()
+}
+
 /// Answers with a refusal.
 ///
 /// # Errors
 /// What the connection says.
-pub(super) fn refuse(stream: &mut impl Write, refusal: Refusal) -> io::Result<()> {
+pub(crate) fn refuse(stream: &mut impl Write, refusal: Refusal) -> io::Result<()> {
     let status = refusal.status();
     write!(
         stream,
@@ -205,6 +247,33 @@ mod tests {
         // A link to the page may be followed.
         let link = "GET / HTTP/1.1\r\nHost: 127.0.0.1:4000\r\nSec-Fetch-Site: cross-site\r\n\r\n";
         assert_eq!(request(link), Ok(Request::Get("/".to_owned())));
+    }
+
+    const LINE: &str = "GET /live HTTP/1.1\r\nHost: 127.0.0.1:4000\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
+        Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+
+    #[test]
+    fn a_line_is_for_a_page_of_this_address_alone() {
+        let ours = format!("{LINE}Origin: http://127.0.0.1:4000\r\n\r\n");
+        assert_eq!(request(&ours), Ok(Request::Live("dGhlIHNhbXBsZSBub25jZQ==".to_owned())));
+        for origin in ["http://evil.example", "http://127.0.0.1:4001", "https://127.0.0.1:4000", "null", ""] {
+            let foreign = format!("{LINE}Origin: {origin}\r\n\r\n");
+            assert_eq!(request(&foreign), Err(Refusal::Foreign), "{origin}");
+        }
+        assert_eq!(request(&format!("{LINE}\r\n")), Err(Refusal::Foreign), "no page at all");
+        let renamed = ours.replace("Host: 127.0.0.1:4000", "Host: evil.example:4000");
+        assert_eq!(request(&renamed), Err(Refusal::Foreign));
+    }
+
+    #[test]
+    fn what_asks_for_no_line_gets_none() {
+        let ours = format!("{LINE}Origin: http://127.0.0.1:4000\r\n\r\n");
+        for (from, to) in
+            [("Version: 13", "Version: 8"), ("Upgrade: websocket", "Upgrade: h2c"), ("GET", "POST")]
+        {
+            assert_eq!(request(&ours.replace(from, to)), Err(Refusal::Malformed), "{to}");
+        }
+        assert_eq!(request(&format!("{ours}early")), Err(Refusal::Malformed));
     }
 
     #[test]

@@ -1,13 +1,9 @@
 //! Settings that a board keeps: lowered by the host, never raised above what is compiled in (S13), in force once stored.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod a_bench;
-mod a_board;
-
-use a_bench::{Answer, Bench};
+use crate::a_bench::{Answer, Bench};
 use zygote_protocol::{
-    Action, CentiCelsius, Command, FaultCode, Limits, MemoryReport, MemoryState, Milliamps, Millis, Refusal,
-    RefusalCode, Reply, Response, RigId, Settings, SettingsReport, State, Step, Turn, program_crc,
+    Action, CentiCelsius, Command, FaultCode, Kept, Limits, MemoryReport, MemoryState, Milliamps, Millis,
+    Refusal, RefusalCode, Reply, Response, RigId, Settings, SettingsReport, State, Step, Turn, program_crc,
 };
 
 /// Half of full scale: some 25 °C.
@@ -21,7 +17,7 @@ impl Bench {
 }
 
 fn compiled() -> Settings {
-    let config = a_board::config(1, 1, 1);
+    let config = crate::a_board::config(1, 1, 1);
     Settings { ceiling: config.ceiling, shortest_pulse_us: 500, longest_pulse_us: 2_500 }
 }
 
@@ -31,6 +27,12 @@ fn lowered() -> Settings {
         shortest_pulse_us: 1_000,
         longest_pulse_us: 2_000,
     }
+}
+
+fn kept(settings: Settings) -> Kept<1, 1> {
+    let mut kept = Kept::NOTHING;
+    kept.settings = Some(settings);
+    kept
 }
 
 fn refused(code: RefusalCode, at: u16, expected: i64, got: i64) -> Answer {
@@ -67,7 +69,7 @@ fn settings_are_in_force_and_answered_only_once_they_are_stored() {
     assert_eq!((bench.report().in_force, bench.report().compiled), (compiled(), compiled()));
     let id = bench.send(Command::Configure(lowered()));
     assert!(bench.carry().is_empty(), "not yet");
-    assert_eq!(bench.core.to_store(), Some(&lowered()));
+    assert_eq!(bench.core.to_store(), Some(&kept(lowered())));
     assert_eq!(bench.report().in_force, compiled());
     bench.core.stored(true);
     assert_eq!(bench.core.to_store(), None);
@@ -134,7 +136,7 @@ fn s13_no_setting_goes_beyond_the_board() {
 fn s13_what_was_stored_by_a_laxer_firmware_is_held_to_this_one() {
     let mut bench = Bench::new();
     let hot = Limits { max_temperature: CentiCelsius(20_000), max_on: Millis(1), ..compiled().ceiling };
-    bench.core.restore(&Settings { ceiling: hot, ..lowered() });
+    bench.core.restore(kept(Settings { ceiling: hot, ..lowered() }));
     let in_force = bench.report().in_force;
     assert_eq!(in_force.ceiling, Limits { max_on: Millis(1), ..compiled().ceiling });
     assert_eq!((in_force.shortest_pulse_us, in_force.longest_pulse_us), (1_000, 2_000));
@@ -143,11 +145,11 @@ fn s13_what_was_stored_by_a_laxer_firmware_is_held_to_this_one() {
 #[test]
 fn s13_lowered_settings_bind_programs_and_arming() {
     let mut bench = Bench::new();
-    bench.core.restore(&lowered());
+    bench.core.restore(kept(lowered()));
     assert_eq!(with_a_servo(&mut bench), refused(RefusalCode::ServoRange, 0, 1_000, 700));
-    bench.core.restore(&compiled());
+    bench.core.restore(kept(compiled()));
     assert_eq!(bench.ask(Command::Commit), Ok(Reply::Done));
-    bench.core.restore(&Settings { shortest_pulse_us: 500, ..lowered() });
+    bench.core.restore(kept(Settings { shortest_pulse_us: 500, ..lowered() }));
     assert_eq!(
         arm(&mut bench, compiled().ceiling),
         refused(RefusalCode::LimitAboveCeiling, 0, 8_000, 12_000)
