@@ -1,6 +1,7 @@
 //! What a board keeps of its actuators by measurement: told to it, and told by it for people and programs.
 
 use crate::failure::{Failure, OrFail};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::path::Path;
 use zygote_controller::{RequestError, Session, Transport};
@@ -22,19 +23,36 @@ pub(crate) fn of<T: Transport>(session: &mut Session<T>) -> Result<Vec<Calibrati
     Ok(known)
 }
 
+/// What a board was told to keep.
+#[derive(Debug, Serialize)]
+pub(crate) struct Taught {
+    /// Heaters and servos of which it knows something.
+    known: usize,
+    /// Those of which it didn't know that before.
+    new: usize,
+}
+
 /// Has the board keep what is known of hinges that are calibrated, so that it refuses steps that don't go with it.
 pub(crate) fn teach<T: Transport>(
     session: &mut Session<T>,
     rig: &Rig,
     file: &Path,
     result: &zygote_deployment::Calibration,
-) -> Result<String, Failure> {
+) -> Result<Taught, Failure> {
     let mut sound = result.clone();
     sound.hinges.retain(|hinge| hinge.verdict == CalibrationVerdict::Calibrated);
     let rig = rig.clone().calibrated(&file.display().to_string(), &sound).or_failed()?;
     let known = zygote_controller::known(&rig, &sound).or_failed()?;
     let new = session.calibrate(&known).or_failed()?;
-    Ok(format!("the board keeps what is known of {} heater(s) and servo(s), {new} of them new", known.len()))
+    Ok(Taught { known: known.len(), new })
+}
+
+impl Taught {
+    /// As a line of text.
+    pub(crate) fn line(&self) -> String {
+        let Self { known, new } = self;
+        format!("the board keeps what is known of {known} heater(s) and servo(s), {new} of them new")
+    }
 }
 
 /// Has the board forget what is known of the servos of these channels.

@@ -1,7 +1,7 @@
 //! `zygote calibrate`: measures the shape-memory hinges of a rig, at a board or on the simulator, and writes what they are like. Servos
 //! are [`calibrate_servo`]'s.
 
-use crate::board_calibrations::teach;
+use crate::board_calibrations::{Taught, teach};
 use crate::calibration_progress::Display;
 use crate::calibration_table::{essential, hinge_of, table};
 use crate::failure::{Failure, OrFail};
@@ -259,21 +259,20 @@ fn measure<T: Transport>(
     write_file(&files.result, result.text().or_failed()?.as_bytes())?;
     let page = calibration_report::page(rig, &date, &hinges, &fits, &calibrated);
     write_file(&files.report, page.as_bytes())?;
+    let taught = teach(&mut session, rig, &files.result, &result);
     if arguments.json {
         let files = [&files.result, &files.records, &files.report].map(PathBuf::as_path);
-        let document = calibration_json::document(&rig.id, &result.at(), &calibrated, files).or_failed()?;
+        let taught = taught.as_ref().ok();
+        let document =
+            calibration_json::document(&rig.id, &result.at(), &calibrated, taught, files).or_failed()?;
         say(serde_json::to_string_pretty(&document).or_failed()?);
     } else {
         say(table(&calibrated));
         say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
+        taught.iter().map(Taught::line).for_each(say);
     }
-    let taught = teach(&mut session, rig, &files.result, &result);
     judge(&calibrated)?;
-    let taught = taught?;
-    if !arguments.json {
-        say(taught);
-    }
-    Ok(())
+    taught.map(drop)
 }
 
 fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {

@@ -1,7 +1,7 @@
 //! `zygote calibrate --servo`: finds the pulses of servo hinges at 0, 90, 180 and 270 degrees, by angles that a person types or a
 //! sensor reads.
 
-use crate::board_calibrations::{forget, teach};
+use crate::board_calibrations::{Taught, forget, teach};
 use crate::calibrate::{Arguments, HELLO_PATIENCE, SIMULATED, known};
 use crate::failure::{Failure, OrFail};
 use crate::output::{say, write_file};
@@ -130,21 +130,20 @@ fn measure<T: Transport>(
     write_file(&files.result, result.text().or_failed()?.as_bytes())?;
     let page = servo_report::page(rig, &date, &hinges, &calibrated);
     write_file(&files.report, page.as_bytes())?;
+    let taught = teach(&mut session, rig, &files.result, &result);
     if arguments.json {
         let files = [&files.result, &files.records, &files.report].map(PathBuf::as_path);
-        let document = calibration_json::document(&rig.id, &result.at(), &calibrated, files).or_failed()?;
+        let taught = taught.as_ref().ok();
+        let document =
+            calibration_json::document(&rig.id, &result.at(), &calibrated, taught, files).or_failed()?;
         say(serde_json::to_string_pretty(&document).or_failed()?);
     } else {
         say(servo_report::table(&calibrated));
         say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
+        taught.iter().map(Taught::line).for_each(say);
     }
-    let taught = teach(&mut session, rig, &files.result, &result);
     judge(&calibrated)?;
-    let taught = taught?;
-    if !arguments.json {
-        say(taught);
-    }
-    Ok(())
+    taught.map(drop)
 }
 
 fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {

@@ -1,16 +1,18 @@
 //! What was calibrated, as one JSON document: numbers in their units, and what is unlike the other hinges.
 
+use crate::board_calibrations::Taught;
 use crate::calibration_table::{COLUMNS, key, outliers};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use zygote_calibration::Quantity;
 use zygote_deployment::{Calibrated, CalibratedAt, CalibratedHinge, CalibrationError};
 
-/// The document. The files are those of calibration, records and page.
+/// The document, with what the board was told to keep, if that could be told. The files are those of calibration, records and page.
 pub(crate) fn document(
     rig: &str,
     board: &CalibratedAt,
     hinges: &[CalibratedHinge],
+    taught: Option<&Taught>,
     [calibration, records, report]: [&Path; 3],
 ) -> Result<Value, CalibrationError> {
     let unlike = COLUMNS.map(|(quantity, _)| (quantity, outliers(hinges, quantity)));
@@ -27,6 +29,7 @@ pub(crate) fn document(
         "board": board.board,
         "unique_id": board.unique_id,
         "hinges": told.collect::<Result<Vec<_>, _>>()?,
+        "board_keeps": taught,
         "files": { "calibration": calibration, "records": records, "report": report },
     }))
 }
