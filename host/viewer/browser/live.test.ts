@@ -69,7 +69,7 @@ test("a run is armed, started and seen through to its end", async () => {
   expect(await opened(page)).toBe(0);
   expect(await page.locator("#run .waiting").textContent()).toMatch(/^Waiting: \d.*after \d/);
   await start(page);
-  expect(await page.getByLabel("Colour", { exact: true }).inputValue()).toBe("temperature");
+  expect(await page.getByRole("listbox", { name: "Colour" }).inputValue()).toBe("temperature");
   await stage(page, "over");
   expect(await opened(page)).toBe(5);
   expect(await page.locator("#run .result").textContent()).toContain("deployed: nothing: every hinge is open");
