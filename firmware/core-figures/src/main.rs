@@ -55,7 +55,13 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[unsafe(no_mangle)]
 extern "C" fn figures_new(core: &mut MaybeUninit<AnyCore>, call: &mut Call) {
     let before = Retained::from_words(&call.retained).recall();
-    core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before)).restore(config::kept());
+    restore(core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before)));
+}
+
+/// By itself, so that what is kept and a whole new core don't lie on the stack at once.
+#[inline(never)]
+fn restore(core: &mut AnyCore) {
+    core.restore(config::kept());
 }
 
 #[expect(unsafe_code, reason = "the linker finds the entry by its name")]

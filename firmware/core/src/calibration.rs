@@ -14,10 +14,11 @@ const LEAST_CURRENT: u64 = 80;
 /// A step expects at least this part of the measured gain.
 const GAIN_PART: u64 = 4;
 
-/// Holds a step against what is known of its actuator.
+/// Holds a step against what is known of its actuator. By itself, so that no command's stack holds it but while it runs.
 ///
 /// # Errors
 /// The refusal of the step.
+#[inline(never)]
 pub(crate) fn check<const H: usize, const S: usize>(
     known: &Kept<H, S>,
     at: u16,

@@ -218,7 +218,8 @@ fn clear<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     Ok(Reply::Done)
 }
 
-/// Nothing may be energised: writing to flash may halt the processor for a second.
+/// Nothing may be energised: writing to flash may halt the processor for a second. By itself, as [`readings`].
+#[inline(never)]
 fn configure<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     core: &mut Core<H, S, R, STEPS>,
     id: u16,
@@ -230,6 +231,7 @@ fn configure<const H: usize, const S: usize, const R: usize, const STEPS: usize>
     core.keeper.configure(id, settings)
 }
 
+#[inline(never)]
 fn calibration_of<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     core: &Core<H, S, R, STEPS>,
     actuator: Actuator,
@@ -238,7 +240,8 @@ fn calibration_of<const H: usize, const S: usize, const R: usize, const STEPS: u
     Ok(Reply::Calibration(core.keeper.known().of(actuator)))
 }
 
-/// As [`configure`].
+/// As [`configure`]. By itself, as [`readings`].
+#[inline(never)]
 fn calibrate<const H: usize, const S: usize, const R: usize, const STEPS: usize>(
     core: &mut Core<H, S, R, STEPS>,
     id: u16,

@@ -11,7 +11,9 @@ mod calibration_report;
 mod calibration_table;
 mod check;
 mod checked_order;
+mod completions;
 mod deploy;
+mod doctor;
 mod drift;
 mod explain;
 mod export;
@@ -28,6 +30,7 @@ mod interrupt;
 mod line_tests;
 mod link;
 mod live;
+mod man;
 mod net;
 mod noisy_line;
 mod output;
@@ -61,6 +64,7 @@ use std::process::ExitCode;
 /// Shapes into stacks of panels, and stacks into shapes.
 #[derive(Parser)]
 #[command(
+    name = "zygote",
     version,
     about = "Shapes into stacks of panels, and stacks into shapes",
     after_help = "Exit codes: 0 it worked, 1 it didn't, 2 the input can't be used.",

@@ -2,9 +2,9 @@
 
 use crate::failure::Failure;
 use crate::{
-    alternatives, assembly, calibrate, check, deploy, drift, explain, export, flash, fold_back, hil, link,
-    net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence, serve, settings, sim,
-    table, tolerance, torque, view,
+    alternatives, assembly, calibrate, check, completions, deploy, doctor, drift, explain, export, flash,
+    fold_back, hil, link, man, net, picture, plan, reconfigure, rehearse, replay, report, schedule, sequence,
+    serve, settings, sim, table, tolerance, torque, view,
 };
 use clap::Subcommand;
 
@@ -67,6 +67,12 @@ pub(crate) enum Verb {
     Hil(hil::Arguments),
     /// Serve a simulated board on a pseudo-terminal
     Sim(sim::Arguments),
+    /// Look for what zygote can use: ports, a board's firmware, other programs; tell what to do about what isn't there
+    Doctor(doctor::Arguments),
+    /// Print what a shell needs to complete verbs and options
+    Completions(completions::Arguments),
+    /// Write the manual, a page a verb
+    Man(man::Arguments),
 }
 
 impl Verb {
@@ -74,6 +80,9 @@ impl Verb {
     pub(crate) fn run(self) -> Result<(), Failure> {
         match self {
             Self::Plan(arguments) => plan::run(&arguments),
+            Self::Doctor(arguments) => doctor::run(&arguments),
+            Self::Completions(arguments) => completions::run(&arguments),
+            Self::Man(arguments) => man::run(&arguments),
             Self::Check(arguments) => check::run(&arguments),
             Self::Sequence(arguments) => sequence::run(&arguments),
             Self::Reconfigure(arguments) => reconfigure::run(&arguments),

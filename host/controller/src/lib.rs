@@ -41,6 +41,6 @@ pub use link_bench::{LinkFigures, link_bench};
 pub use program::{ProgramError, limits, program};
 pub use report::{HingeOutcome, HingeReport, Outcome, RunReport};
 pub use resume::{EarlierRun, ResumeError};
-pub use serial::{SerialError, SerialTransport};
+pub use serial::{SerialError, SerialTransport, serial_ports};
 pub use session::{RequestError, Session, SessionError};
 pub use transport::Transport;

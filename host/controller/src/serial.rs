@@ -43,6 +43,12 @@ fn ports_here(ports: &[String]) -> String {
     }
 }
 
+/// The names of the serial ports on this machine.
+pub fn serial_ports() -> Vec<String> {
+    let ports = serialport::available_ports().unwrap_or_default();
+    ports.into_iter().map(|port| port.port_name).collect()
+}
+
 /// An open serial port.
 pub struct SerialTransport {
     device: String,
@@ -57,9 +63,7 @@ impl SerialTransport {
     /// [`SerialError`], with what to look at.
     pub fn open(device: &str, baud: u32) -> Result<Self, SerialError> {
         if !std::path::Path::new(device).exists() && cfg!(unix) {
-            let ports = serialport::available_ports().unwrap_or_default();
-            let ports = ports.into_iter().map(|port| port.port_name).collect();
-            return Err(SerialError::NotFound { device: device.to_owned(), ports });
+            return Err(SerialError::NotFound { device: device.to_owned(), ports: serial_ports() });
         }
         let opened = serialport::new(device, baud).timeout(WRITE_TIMEOUT).open();
         let port =

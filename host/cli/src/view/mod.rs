@@ -17,6 +17,7 @@ use crate::output::say;
 use crate::{input, interrupt};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
+pub(crate) use page::has_page;
 use photograph::Photograph;
 pub(crate) use scene::{Run, SceneOf};
 pub(crate) use showing::{Showing, listen, page, until_interrupted};

@@ -14,3 +14,8 @@ pub(crate) fn page() -> Result<&'static [u8], Failure> {
         ))
     })
 }
+
+/// Whether this program has the page.
+pub(crate) const fn has_page() -> bool {
+    PAGE.is_some()
+}
