@@ -54,11 +54,17 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[expect(unsafe_code, reason = "the linker finds the entry by its name")]
 #[unsafe(no_mangle)]
 extern "C" fn figures_new(core: &mut MaybeUninit<AnyCore>, call: &mut Call) {
-    let before = Retained::from_words(&call.retained).recall();
-    restore(core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before)));
+    restore(build(core, call));
 }
 
-/// By itself, so that what is kept and a whole new core don't lie on the stack at once.
+/// By itself, so that a whole new core and what is kept don't lie on the stack at once.
+#[inline(never)]
+fn build<'a>(core: &'a mut MaybeUninit<AnyCore>, call: &Call) -> &'a mut AnyCore {
+    let before = Retained::from_words(&call.retained).recall();
+    core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before))
+}
+
+/// As [`build`].
 #[inline(never)]
 fn restore(core: &mut AnyCore) {
     core.restore(config::kept());
