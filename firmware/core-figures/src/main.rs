@@ -12,7 +12,7 @@ use call::{CHANNELS, Call};
 use core::mem::MaybeUninit;
 use core::sync::atomic::AtomicU32;
 use zygote_core::{Core, Inputs};
-use zygote_protocol::{Micros, Milliamps, Millivolts, Retained};
+use zygote_protocol::{Micros, Milliamps, Millivolts, Retained, Snapshot};
 
 /// As many channels as a board of 16 heaters with 16 servos and 16 springs has.
 type AnyCore = Core<CHANNELS, CHANNELS, CHANNELS, { 3 * CHANNELS }>;
@@ -54,13 +54,13 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[expect(unsafe_code, reason = "the linker finds the entry by its name")]
 #[unsafe(no_mangle)]
 extern "C" fn figures_new(core: &mut MaybeUninit<AnyCore>, call: &mut Call) {
-    restore(build(core, call));
+    let before = Retained::from_words(&call.retained).recall();
+    restore(build(core, call, before));
 }
 
 /// By itself, so that a whole new core and what is kept don't lie on the stack at once.
 #[inline(never)]
-fn build<'a>(core: &'a mut MaybeUninit<AnyCore>, call: &Call) -> &'a mut AnyCore {
-    let before = Retained::from_words(&call.retained).recall();
+fn build<'a>(core: &'a mut MaybeUninit<AnyCore>, call: &Call, before: Option<Snapshot>) -> &'a mut AnyCore {
     core.write(AnyCore::new(config::config(call.boot), Micros(call.now), before))
 }
 
