@@ -169,7 +169,7 @@ fn search(
 /// Whether the reading at rest moved: the residuals at the end of each rest, where nothing but the air counts.
 fn drifting(record: &Record, nominal: &Nominal, predicted: &[Moment]) -> Option<Diagnosis> {
     const LAST: usize = 10;
-    let expected_k = 0.8 + 4.0 * nominal.sensor.k_per_count(ambient_c(record));
+    let expected_k = 0.35 + 4.0 * nominal.sensor.k_per_count(ambient_c(record));
     let ends = record.drives.iter().skip(1).map(|drive| record.index_after(drive.from_s));
     let mut worst_k: f64 = 0.0;
     for end in ends.chain([record.samples.len()]) {
