@@ -56,7 +56,7 @@ pub fn picture(record: &Record, fit: &Fit) -> String {
     let curves = Scale { values: (low - 3.0, high + 5.0), pixels: CURVES };
     // Writing to a string cannot fail.
     let _ = drives(&mut svg, record, &times);
-    let _ = axes(&mut svg, &times, &curves, "°C");
+    let _ = axes(&mut svg, (&times, "s"), (&curves, "°C"));
     let _ = line(
         &mut svg,
         "#9ab",
@@ -70,7 +70,7 @@ pub fn picture(record: &Record, fit: &Fit) -> String {
         let miss = |(sample, model_c): (&crate::record::Sample, &f64)| sample.reading_c - model_c;
         let most = both().map(|pair| miss(pair).abs()).fold(0.5, f64::max);
         let misses = Scale { values: (-most, most), pixels: MISSES };
-        let _ = axes(&mut svg, &times, &misses, "K");
+        let _ = axes(&mut svg, (&times, "s"), (&misses, "K"));
         let points = both().map(|pair| (times.at(pair.0.t_s), misses.at(miss(pair))));
         let _ = line(&mut svg, "#369", points);
     }
@@ -107,27 +107,32 @@ fn drives(svg: &mut String, record: &Record, times: &Scale) -> core::fmt::Result
     Ok(())
 }
 
-fn axes(svg: &mut String, times: &Scale, values: &Scale, unit: &str) -> core::fmt::Result {
-    let (bottom, top) = values.pixels;
-    let digits = usize::from(values.values.1 - values.values.0 <= 10.0);
-    for tick in values.ticks() {
-        let y = values.at(tick);
+/// Both axes, each a scale with its unit, and a line at each round value of the upright one.
+pub(crate) fn axes(
+    svg: &mut String,
+    (along, along_unit): (&Scale, &str),
+    (up, up_unit): (&Scale, &str),
+) -> core::fmt::Result {
+    let ((left, right), (bottom, top)) = (along.pixels, up.pixels);
+    let digits = usize::from(up.values.1 - up.values.0 <= 10.0);
+    for tick in up.ticks() {
+        let y = up.at(tick);
         writeln!(
             svg,
-            "<line x1=\"{LEFT}\" x2=\"{RIGHT}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>\
+            "<line x1=\"{left}\" x2=\"{right}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>\
              <text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{tick:.digits$}</text>",
             y + 4.0
         )?;
     }
-    for tick in times.ticks() {
-        let x = times.at(tick);
+    for tick in along.ticks() {
+        let x = along.at(tick);
         writeln!(
             svg,
-            "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{tick:.0} s</text>",
+            "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{tick:.0} {along_unit}</text>",
             bottom + 16.0
         )?;
     }
-    writeln!(svg, "<text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{unit}</text>", top - 6.0)
+    writeln!(svg, "<text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{up_unit}</text>", top - 6.0)
 }
 
 /// A dashed line at each transformation temperature that was identified.

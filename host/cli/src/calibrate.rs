@@ -1,21 +1,20 @@
 //! `zygote calibrate`: measures the shape-memory hinges of a rig, at a board or on the simulator, and writes what they are like. Servos
 //! are [`calibrate_servo`]'s.
 
-use crate::board_calibrations::{Taught, teach};
+use crate::calibration_files::{Files, Found};
 use crate::calibration_progress::Display;
-use crate::calibration_table::{essential, hinge_of, table};
+use crate::calibration_table::{hinge_of, table};
 use crate::failure::{Failure, OrFail};
-use crate::output::{say, write_file};
 use crate::paced_line::PacedLine;
-use crate::{calibrate_servo, calibration_json, calibration_report, identity, input, interrupt};
+use crate::{calibrate_servo, calibration_report, identity, input, interrupt};
 use anyhow::{Context, anyhow};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use zygote_calibration::Fit;
 use zygote_controller::calibrate::{self, Calibration, Hinge, Measured};
 use zygote_controller::{SerialTransport, Session, Transport};
-use zygote_deployment::{CalibratedHinge, CalibrationVerdict, Drive, Fitting, Kind, Rig};
+use zygote_deployment::{Drive, Fitting, Kind, Rig};
 use zygote_protocol::Millis;
 
 /// How long an answer to the hello is waited for.
@@ -83,15 +82,6 @@ pub(crate) struct Which {
     pub(crate) servo: Vec<usize>,
 }
 
-/// The files of a calibration.
-struct Files {
-    result: PathBuf,
-    /// All that was measured.
-    records: PathBuf,
-    /// For people.
-    report: PathBuf,
-}
-
 /// Measures; succeeds only when every hinge is calibrated.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (rig, _) = input::rig_as_written(&arguments.rig)?;
@@ -99,15 +89,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.which.servo.is_empty() {
         return calibrate_servo::run(arguments, &rig, &fittings);
     }
-    let result = arguments.output.clone().unwrap_or_else(|| arguments.rig.with_file_name("calibration.toml"));
-    let files = Files {
-        records: result.with_extension("records.json"),
-        report: result.with_extension("html"),
-        result,
-    };
-    let earlier = earlier(arguments, &files)?;
+    let files = Files::new(arguments, "records.json", "html");
+    let earlier = files.earlier(arguments, Measured::from_json, |measured| measured.complete)?;
     // Before anything is heated: a file of another rig stays as it is.
-    let known = known(&files.result, &rig)?;
+    let known = files.known(&rig)?;
     if let Some(device) = &arguments.target.port {
         let transport = SerialTransport::open(device, rig.link.baud).or_bad_input()?;
         measure(arguments, transport, identity::fresh(), &rig, &fittings, &files, (earlier, known))
@@ -170,40 +155,6 @@ fn hinges<T: Transport>(
     numbers.into_iter().map(hinge).collect::<Result<_, _>>().or_bad_input()
 }
 
-/// What an interrupted calibration measured, where it is gone on with.
-fn earlier(arguments: &Arguments, files: &Files) -> Result<Option<Measured>, Failure> {
-    let name = files.records.display().to_string();
-    let bytes = match std::fs::read(&files.records) {
-        Ok(bytes) => bytes,
-        Err(error) if arguments.resume => {
-            return Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read"))));
-        }
-        Err(_) => return Ok(None),
-    };
-    let measured = Measured::from_json(&bytes).context(name.clone());
-    if arguments.resume {
-        return measured.map(Some).or_bad_input();
-    }
-    match measured {
-        Ok(measured) if !measured.complete && !arguments.restart => Err(Failure::BadInput(anyhow!(
-            "{name}: holds a calibration that was interrupted: --resume goes on with it, --restart forgets it"
-        ))),
-        Ok(_) | Err(_) => Ok(None),
-    }
-}
-
-/// What the result's file says already.
-pub(crate) fn known(path: &Path, rig: &Rig) -> Result<Option<zygote_deployment::Calibration>, Failure> {
-    let name = path.display().to_string();
-    match std::fs::read_to_string(path) {
-        Ok(text) => {
-            zygote_deployment::Calibration::read(&text, &rig.id).context(name).map(Some).or_bad_input()
-        }
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read")))),
-    }
-}
-
 fn measure<T: Transport>(
     arguments: &Arguments,
     transport: T,
@@ -233,13 +184,7 @@ fn measure<T: Transport>(
         interrupted: &|| interrupted.load(Ordering::Relaxed),
     };
     let display = Display::new();
-    let mut keep = |hinges: &[Hinge]| {
-        let json =
-            serde_json::to_vec(&Measured::new(&rig.id, &info, hinges)).map_err(|error| error.to_string())?;
-        write_file(&files.records, &json).map_err(|failure| match failure {
-            Failure::BadInput(error) | Failure::Failed(error) => format!("{error:#}"),
-        })
-    };
+    let mut keep = |hinges: &[Hinge]| files.keep(&Measured::new(&rig.id, &info, hinges));
     let outcome = calibrate::calibrate(&mut session, &calibration, &mut hinges, &mut keep, &mut |progress| {
         display.show(progress);
     });
@@ -254,35 +199,7 @@ fn measure<T: Transport>(
         fresh.hinges.push(hinge_of(hinge, &fit, &date, &firmware));
         fits.push(Some(fit));
     }
-    let calibrated = fresh.hinges.clone();
-    result.take_in(fresh).or_failed()?;
-    write_file(&files.result, result.text().or_failed()?.as_bytes())?;
-    let page = calibration_report::page(rig, &date, &hinges, &fits, &calibrated);
-    write_file(&files.report, page.as_bytes())?;
-    let taught = teach(&mut session, rig, &files.result, &result);
-    if arguments.json {
-        let files = [&files.result, &files.records, &files.report].map(PathBuf::as_path);
-        let taught = taught.as_ref().ok();
-        let document =
-            calibration_json::document(&rig.id, &result.at(), &calibrated, taught, files).or_failed()?;
-        say(serde_json::to_string_pretty(&document).or_failed()?);
-    } else {
-        say(table(&calibrated));
-        say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
-        taught.iter().map(Taught::line).for_each(say);
-    }
-    judge(&calibrated)?;
-    taught.map(drop)
-}
-
-fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {
-    let bad: Vec<String> = calibrated
-        .iter()
-        .filter(|hinge| hinge.verdict != CalibrationVerdict::Calibrated)
-        .map(|hinge| {
-            let why = hinge.why.clone().or_else(|| essential(hinge)).unwrap_or_default();
-            format!("hinge {}: {}: {why}", hinge.hinge, hinge.verdict.name())
-        })
-        .collect();
-    if bad.is_empty() { Ok(()) } else { Err(Failure::Failed(anyhow!("{}", bad.join("\n       ")))) }
+    let page = calibration_report::page(rig, &date, &hinges, &fits, &fresh.hinges);
+    let found = Found { table: table(&fresh.hinges), page, hinges: fresh };
+    files.finish(&mut session, rig, result, found, arguments.json)
 }

@@ -1,23 +1,22 @@
 //! `zygote calibrate --servo`: finds the pulses of servo hinges at 0, 90, 180 and 270 degrees, by angles that a person types or a
 //! sensor reads.
 
-use crate::board_calibrations::{Taught, forget, teach};
-use crate::calibrate::{Arguments, HELLO_PATIENCE, SIMULATED, known};
+use crate::board_calibrations::forget;
+use crate::calibrate::{Arguments, HELLO_PATIENCE, SIMULATED};
+use crate::calibration_files::{Files, Found};
 use crate::failure::{Failure, OrFail};
-use crate::output::{say, write_file};
 use crate::paced_line::PacedLine;
 use crate::servo_protractor::{CommandSensor, Truth, Typed};
-use crate::{calibration_json, identity, interrupt, servo_report};
+use crate::{identity, interrupt, servo_report};
 use anyhow::{Context, anyhow};
 use clap::Args;
-use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use zygote_controller::calibrate::chip_id;
 use zygote_controller::calibrate_servo::{
     MeasuredServos, Protractor, ServoCalibration, ServoHinge, calibrate_servos,
 };
 use zygote_controller::{SerialTransport, Session, Transport};
-use zygote_deployment::{CalibratedHinge, Calibration, CalibrationVerdict, Drive, Fitting, Rig};
+use zygote_deployment::{Calibration, Drive, Fitting, Rig};
 
 /// The sensor that is the simulator's truth.
 const TRUTH: &str = "sim";
@@ -33,15 +32,6 @@ pub(crate) struct Options {
     tolerance: f64,
 }
 
-/// The files of a servo calibration.
-struct Files {
-    result: PathBuf,
-    /// All that was read.
-    records: PathBuf,
-    /// For people.
-    report: PathBuf,
-}
-
 /// Reads angles; succeeds only when every servo is calibrated.
 pub(crate) fn run(arguments: &Arguments, rig: &Rig, fittings: &[Fitting]) -> Result<(), Failure> {
     let tolerance_deg = arguments.servo.tolerance;
@@ -49,12 +39,7 @@ pub(crate) fn run(arguments: &Arguments, rig: &Rig, fittings: &[Fitting]) -> Res
         let error = anyhow!("--tolerance {tolerance_deg}: expected 0.1 to 10 degrees");
         return Err(Failure::BadInput(error));
     }
-    let result = arguments.output.clone().unwrap_or_else(|| arguments.rig.with_file_name("calibration.toml"));
-    let files = Files {
-        records: result.with_extension("servos.json"),
-        report: result.with_extension("servos.html"),
-        result,
-    };
+    let files = Files::new(arguments, "servos.json", "servos.html");
     let sensor = arguments.servo.sensor.as_deref();
     let bench = (rig, fittings, &files);
     if let Some(device) = &arguments.target.port {
@@ -89,9 +74,9 @@ fn measure<T: Transport>(
     (rig, fittings, files): (&Rig, &[Fitting], &Files),
     protractor: &mut dyn Protractor<T>,
 ) -> Result<(), Failure> {
-    let earlier = earlier(arguments, files)?;
+    let earlier = files.earlier(arguments, MeasuredServos::from_json, |measured| measured.complete)?;
     // Before anything moves: a file of another rig stays as it is.
-    let known = known(&files.result, rig)?;
+    let known = files.known(rig)?;
     let interrupted = interrupt::flag()?;
     let mut session = Session::connect(transport, number, HELLO_PATIENCE).or_failed()?;
     let info = session.info().clone();
@@ -111,13 +96,7 @@ fn measure<T: Transport>(
         clear: arguments.clear,
         interrupted: &|| interrupted.load(Ordering::Relaxed),
     };
-    let mut keep = |hinges: &[ServoHinge]| {
-        let json = serde_json::to_vec(&MeasuredServos::new(&rig.id, &info, hinges))
-            .map_err(|error| error.to_string())?;
-        write_file(&files.records, &json).map_err(|failure| match failure {
-            Failure::BadInput(error) | Failure::Failed(error) => format!("{error:#}"),
-        })
-    };
+    let mut keep = |hinges: &[ServoHinge]| files.keep(&MeasuredServos::new(&rig.id, &info, hinges));
     // What the board kept was of a servo that may have been replaced, and would hold this one to that one's range.
     forget(&mut session, hinges.iter().map(|hinge| hinge.channel)).or_failed()?;
     calibrate_servos(&mut session, &calibration, &mut hinges, protractor, &mut keep).or_failed()?;
@@ -125,41 +104,9 @@ fn measure<T: Transport>(
     let date = identity::now_utc();
     let mut fresh = fresh();
     fresh.hinges = hinges.iter().map(|hinge| servo_report::hinge_of(hinge, &date, &firmware)).collect();
-    let calibrated = fresh.hinges.clone();
-    result.take_in(fresh).or_failed()?;
-    write_file(&files.result, result.text().or_failed()?.as_bytes())?;
-    let page = servo_report::page(rig, &date, &hinges, &calibrated);
-    write_file(&files.report, page.as_bytes())?;
-    let taught = teach(&mut session, rig, &files.result, &result);
-    if arguments.json {
-        let files = [&files.result, &files.records, &files.report].map(PathBuf::as_path);
-        let taught = taught.as_ref().ok();
-        let document =
-            calibration_json::document(&rig.id, &result.at(), &calibrated, taught, files).or_failed()?;
-        say(serde_json::to_string_pretty(&document).or_failed()?);
-    } else {
-        say(servo_report::table(&calibrated));
-        say(format_args!("calibration: {}\nreport: {}", files.result.display(), files.report.display()));
-        taught.iter().map(Taught::line).for_each(say);
-    }
-    judge(&calibrated)?;
-    taught.map(drop)
-}
-
-fn judge(calibrated: &[CalibratedHinge]) -> Result<(), Failure> {
-    let bad: Vec<String> = calibrated
-        .iter()
-        .filter(|hinge| hinge.verdict != CalibrationVerdict::Calibrated)
-        .map(|hinge| {
-            format!(
-                "hinge {}: {}: {}",
-                hinge.hinge,
-                hinge.verdict.name(),
-                hinge.why.as_deref().unwrap_or_default()
-            )
-        })
-        .collect();
-    if bad.is_empty() { Ok(()) } else { Err(Failure::Failed(anyhow!("{}", bad.join("\n       ")))) }
+    let page = servo_report::page(rig, &date, &hinges, &fresh.hinges);
+    let found = Found { table: servo_report::table(&fresh.hinges), page, hinges: fresh };
+    files.finish(&mut session, rig, result, found, arguments.json)
 }
 
 /// The hinges asked for.
@@ -200,26 +147,4 @@ fn hinges<T: Transport>(
         }
     }
     Ok(hinges)
-}
-
-/// What an interrupted calibration read, where it is gone on with.
-fn earlier(arguments: &Arguments, files: &Files) -> Result<Option<MeasuredServos>, Failure> {
-    let name = files.records.display().to_string();
-    let bytes = match std::fs::read(&files.records) {
-        Ok(bytes) => bytes,
-        Err(error) if arguments.resume => {
-            return Err(Failure::BadInput(anyhow!(error).context(format!("{name}: cannot be read"))));
-        }
-        Err(_) => return Ok(None),
-    };
-    let measured = MeasuredServos::from_json(&bytes).context(name.clone());
-    if arguments.resume {
-        return measured.map(Some).or_bad_input();
-    }
-    match measured {
-        Ok(measured) if !measured.complete && !arguments.restart => Err(Failure::BadInput(anyhow!(
-            "{name}: holds a calibration that was interrupted: --resume goes on with it, --restart forgets it"
-        ))),
-        Ok(_) | Err(_) => Ok(None),
-    }
 }

@@ -5,6 +5,7 @@ mod assembly;
 mod board_calibrations;
 mod calibrate;
 mod calibrate_servo;
+mod calibration_files;
 mod calibration_json;
 mod calibration_progress;
 mod calibration_report;

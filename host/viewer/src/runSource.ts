@@ -3,7 +3,7 @@
 import type { Told } from "./messages";
 import { Run } from "./run";
 import type { Scene } from "./scene";
-import type { Source, State } from "./source";
+import { Player, type Source, type State } from "./source";
 import { Timeline } from "./timeline";
 
 /** Recordings are played at least so fast, in seconds of the run a second, and take no longer than this, s. */
@@ -17,7 +17,6 @@ abstract class RunSource implements Source {
   abstract readonly playing: boolean;
   abstract readonly time: number;
   run: Run | undefined;
-  protected changed = true;
   private readonly fractions: Float64Array;
   private readonly celsius: Float64Array;
 
@@ -44,6 +43,7 @@ export class LiveRun extends RunSource {
   readonly seekable = false;
   readonly playing = false;
   readonly timeline: Timeline;
+  private changed = true;
 
   constructor(scene: Scene) {
     super(scene);
@@ -75,9 +75,7 @@ export class LiveRun extends RunSource {
 export class RecordedRun extends RunSource {
   readonly seekable = true;
   readonly timeline: Timeline;
-  playing = false;
-  time = 0;
-  private readonly rate: number;
+  private readonly player: Player;
 
   constructor(scene: Scene, told: readonly Told[]) {
     super(scene);
@@ -89,26 +87,26 @@ export class RecordedRun extends RunSource {
     const end = Math.max(run.now, 1e-3);
     const spans = run.courses.map(({ started, opened }): readonly [number, number] => [started ?? Infinity, opened ?? Infinity]);
     this.timeline = new Timeline({ ...scene, scheduled: true, end, spans });
-    this.rate = Math.max(SLOWEST, end / LONGEST);
+    this.player = new Player(end, Math.max(SLOWEST, end / LONGEST));
+  }
+
+  get playing(): boolean {
+    return this.player.playing;
+  }
+
+  get time(): number {
+    return this.player.time;
   }
 
   advance(seconds: number): boolean {
-    const { changed } = this;
-    this.changed = false;
-    if (!this.playing) return changed;
-    this.time = Math.min(this.time + Math.min(seconds, 0.1) * this.rate, this.timeline.end);
-    if (this.time >= this.timeline.end) this.playing = false;
-    return true;
+    return this.player.advance(seconds);
   }
 
   seek(time: number): void {
-    this.time = Math.min(Math.max(time, 0), this.timeline.end);
-    this.changed = true;
+    this.player.seek(time);
   }
 
   play(on: boolean): void {
-    if (on && this.time >= this.timeline.end) this.time = 0;
-    this.playing = on;
-    this.changed = true;
+    this.player.play(on);
   }
 }

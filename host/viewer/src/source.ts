@@ -31,47 +31,68 @@ function duration(hinges: number): number {
   return Math.min(Math.max(6, 5 * Math.log10(1 + hinges)), 24);
 }
 
-/** A plan that is played. */
-export class FilePlayback implements Source {
-  readonly seekable = true;
-  readonly timeline: Timeline;
+/** A time that is gone through: it plays to its end, and is led anywhere. */
+export class Player {
   playing = false;
-  private time: number;
-  private readonly fractions: Float64Array;
-  private readonly rate: number;
   private changed = true;
 
-  constructor(playback: Playback, share = 0) {
-    this.timeline = new Timeline(playback);
-    this.time = share * this.timeline.end;
-    this.fractions = new Float64Array(playback.hinges.length);
-    this.rate = this.timeline.end / duration(playback.hinges.length);
-  }
-
-  get state(): State {
-    const share = this.timeline.end > 0 ? this.time / this.timeline.end : 1;
-    return { time: this.time, share, fractions: this.timeline.fractions(this.time, this.fractions) };
-  }
+  constructor(readonly end: number, private readonly rate: number, public time = 0) {}
 
   advance(seconds: number): boolean {
-    const changed = this.changed;
+    const { changed } = this;
     this.changed = false;
     if (!this.playing) return changed;
     // A page that was hidden goes on where it was.
-    this.time = Math.min(this.time + Math.min(seconds, 0.1) * this.rate, this.timeline.end);
-    if (this.time >= this.timeline.end) this.playing = false;
+    this.time = Math.min(this.time + Math.min(seconds, 0.1) * this.rate, this.end);
+    if (this.time >= this.end) this.playing = false;
     return true;
   }
 
   seek(time: number): void {
-    this.time = Math.min(Math.max(time, 0), this.timeline.end);
+    this.time = Math.min(Math.max(time, 0), this.end);
     this.changed = true;
   }
 
   play(on: boolean): void {
     // From the end it starts anew.
-    if (on && this.time >= this.timeline.end) this.time = 0;
-    this.playing = on && this.timeline.end > 0;
+    if (on && this.time >= this.end) this.time = 0;
+    this.playing = on && this.end > 0;
     this.changed = true;
+  }
+}
+
+/** A plan that is played. */
+export class FilePlayback implements Source {
+  readonly seekable = true;
+  readonly timeline: Timeline;
+  private readonly player: Player;
+  private readonly fractions: Float64Array;
+
+  constructor(playback: Playback, share = 0) {
+    this.timeline = new Timeline(playback);
+    const { end } = this.timeline;
+    this.player = new Player(end, end / duration(playback.hinges.length), share * end);
+    this.fractions = new Float64Array(playback.hinges.length);
+  }
+
+  get playing(): boolean {
+    return this.player.playing;
+  }
+
+  get state(): State {
+    const { time, end } = this.player;
+    return { time, share: end > 0 ? time / end : 1, fractions: this.timeline.fractions(time, this.fractions) };
+  }
+
+  advance(seconds: number): boolean {
+    return this.player.advance(seconds);
+  }
+
+  seek(time: number): void {
+    this.player.seek(time);
+  }
+
+  play(on: boolean): void {
+    this.player.play(on);
   }
 }

@@ -2,7 +2,7 @@
 
 use super::found::FoundServo;
 use super::record::ServoRecord;
-use crate::picture::Scale;
+use crate::picture::{Scale, axes};
 use core::fmt::Write;
 
 const WIDTH: f64 = 720.0;
@@ -37,7 +37,7 @@ fn draw(svg: &mut String, record: &ServoRecord, found: &FoundServo, pulses: &Sca
     let low_deg = readings().fold(0.0, f64::min);
     let high_deg = readings().fold(270.0, f64::max);
     let angles = Scale { values: (low_deg - 10.0, high_deg + 10.0), pixels: ANGLES };
-    axes(svg, pulses, &angles, "deg")?;
+    axes(svg, (pulses, "us"), (&angles, "deg"))?;
     for stop_deg in [found.stop_low_deg, found.stop_high_deg].into_iter().flatten() {
         let y = angles.at(stop_deg);
         writeln!(
@@ -81,7 +81,7 @@ fn draw(svg: &mut String, record: &ServoRecord, found: &FoundServo, pulses: &Sca
     let Some(worst_deg) = found.worst_off_line_deg() else { return Ok(()) };
     let most_deg = worst_deg.max(1.0);
     let misses = Scale { values: (-most_deg, most_deg), pixels: OFF_LINE };
-    axes(svg, pulses, &misses, "deg")?;
+    axes(svg, (pulses, "us"), (&misses, "deg"))?;
     for (look, off_deg) in &found.off_line_deg {
         let (x, y, zero) = (pulses.at(f64::from(look.pulse_us)), misses.at(*off_deg), misses.at(0.0));
         writeln!(
@@ -90,27 +90,4 @@ fn draw(svg: &mut String, record: &ServoRecord, found: &FoundServo, pulses: &Sca
         )?;
     }
     Ok(())
-}
-
-fn axes(svg: &mut String, pulses: &Scale, values: &Scale, unit: &str) -> core::fmt::Result {
-    let (bottom, top) = values.pixels;
-    let digits = usize::from(values.values.1 - values.values.0 <= 10.0);
-    for tick in values.ticks() {
-        let y = values.at(tick);
-        writeln!(
-            svg,
-            "<line x1=\"{LEFT}\" x2=\"{RIGHT}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"#ddd\"/>\
-             <text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{tick:.digits$}</text>",
-            y + 4.0
-        )?;
-    }
-    for tick in pulses.ticks() {
-        let x = pulses.at(tick);
-        writeln!(
-            svg,
-            "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{tick:.0} us</text>",
-            bottom + 16.0
-        )?;
-    }
-    writeln!(svg, "<text x=\"50\" y=\"{:.1}\" text-anchor=\"end\">{unit}</text>", top - 6.0)
 }

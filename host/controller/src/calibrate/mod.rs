@@ -13,7 +13,7 @@ mod batch;
 mod hinge;
 mod progress;
 mod pulse_step;
-mod records;
+pub(crate) mod records;
 mod sampler;
 mod thermistors;
 

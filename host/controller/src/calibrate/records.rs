@@ -1,13 +1,14 @@
 //! What was measured, as a file: kept while a calibration goes on, so that one which was interrupted goes on with it.
 
 use super::hinge::{Ending, Hinge};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use zygote_calibration::{Drive, Purpose, Record, RecordError, Sample};
 use zygote_protocol::HelloReply;
 
-/// The one version of this file.
-const VERSION: u32 = 1;
+/// The one version of the files of records.
+pub(crate) const VERSION: u32 = 1;
 
 /// Everything measured so far on one rig.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -100,6 +101,36 @@ pub enum RecordsError {
     },
 }
 
+/// Reads a file of records.
+pub(crate) fn read<T: DeserializeOwned>(
+    bytes: &[u8],
+    version: impl FnOnce(&T) -> u32,
+) -> Result<T, RecordsError> {
+    let measured =
+        serde_json::from_slice(bytes).map_err(|error| RecordsError::Unreadable(error.to_string()))?;
+    match version(&measured) {
+        VERSION => Ok(measured),
+        found => Err(RecordsError::Version { found }),
+    }
+}
+
+/// Holds what a file says of where it was measured against what is at hand: name, ours, the file's.
+pub(crate) fn hold<const N: usize>(places: [(&'static str, String, String); N]) -> Result<(), RecordsError> {
+    match places.into_iter().find(|(_, expected, found)| expected != found) {
+        Some((what, expected, found)) => Err(RecordsError::Other { what, expected, found }),
+        None => Ok(()),
+    }
+}
+
+/// Holds a file's hinges and channels against those asked for.
+pub(crate) fn hold_hinges(
+    expected: impl Iterator<Item = (usize, u16)>,
+    found: impl Iterator<Item = (usize, u16)>,
+) -> Result<(), RecordsError> {
+    let (expected, found): (Vec<_>, Vec<_>) = (expected.collect(), found.collect());
+    if expected == found { Ok(()) } else { Err(RecordsError::Hinges { expected, found }) }
+}
+
 /// The chip's unique id as files and people write it.
 pub fn chip_id(board: &HelloReply) -> String {
     board.identity.unique_id.iter().fold(String::new(), |mut text, byte| {
@@ -130,12 +161,7 @@ impl Measured {
     /// # Errors
     /// [`RecordsError`], when it is none, or of another version.
     pub fn from_json(bytes: &[u8]) -> Result<Self, RecordsError> {
-        let measured: Self =
-            serde_json::from_slice(bytes).map_err(|error| RecordsError::Unreadable(error.to_string()))?;
-        if measured.version != VERSION {
-            return Err(RecordsError::Version { found: measured.version });
-        }
-        Ok(measured)
+        read(bytes, |measured: &Self| measured.version)
     }
 
     /// Gives hinges what was measured of them before.
@@ -144,21 +170,14 @@ impl Measured {
     /// [`RecordsError`], when it was measured on another rig, with another firmware, or of other hinges; they then have nothing.
     pub fn resume(self, rig: &str, board: &HelloReply, hinges: &mut [Hinge]) -> Result<(), RecordsError> {
         let ours = Self::new(rig, board, &[]);
-        for (what, expected, found) in [
+        hold([
             ("rig", ours.rig, self.rig),
             ("board", ours.board, self.board),
             ("chip", ours.unique_id, self.unique_id),
             ("firmware", ours.firmware, self.firmware),
-        ] {
-            if expected != found {
-                return Err(RecordsError::Other { what, expected, found });
-            }
-        }
-        let expected: Vec<_> = hinges.iter().map(|hinge| (hinge.number, hinge.channel)).collect();
-        let found: Vec<_> = self.hinges.iter().map(|hinge| (hinge.hinge, hinge.channel)).collect();
-        if expected != found {
-            return Err(RecordsError::Hinges { expected, found });
-        }
+        ])?;
+        let expected = hinges.iter().map(|hinge| (hinge.number, hinge.channel));
+        hold_hinges(expected, self.hinges.iter().map(|hinge| (hinge.hinge, hinge.channel)))?;
         let records: Vec<(Record, Option<Ending>)> =
             self.hinges.into_iter().map(MeasuredHinge::into_record).collect();
         for (hinge, (record, _)) in hinges.iter().zip(&records) {

@@ -1,13 +1,11 @@
 //! The readings as a file: kept while a calibration goes on, so that one which was interrupted goes on with them.
 
 use super::hinge::{ServoEnding, ServoHinge};
+use crate::calibrate::records::{VERSION, hold, hold_hinges, read};
 use crate::calibrate::{RecordsError, chip_id};
 use serde::{Deserialize, Serialize};
 use zygote_calibration::servo::Look;
 use zygote_protocol::HelloReply;
-
-/// The one version of this file.
-const VERSION: u32 = 1;
 
 /// Everything read so far on one rig.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -55,12 +53,7 @@ impl MeasuredServos {
     /// # Errors
     /// [`RecordsError`], when it is none, or of another version.
     pub fn from_json(bytes: &[u8]) -> Result<Self, RecordsError> {
-        let measured: Self =
-            serde_json::from_slice(bytes).map_err(|error| RecordsError::Unreadable(error.to_string()))?;
-        if measured.version != VERSION {
-            return Err(RecordsError::Version { found: measured.version });
-        }
-        Ok(measured)
+        read(bytes, |measured: &Self| measured.version)
     }
 
     /// Gives hinges what was read of them before. A servo is the same whatever firmware leads it.
@@ -74,20 +67,13 @@ impl MeasuredServos {
         hinges: &mut [ServoHinge],
     ) -> Result<(), RecordsError> {
         let ours = Self::new(rig, board, &[]);
-        for (what, expected, found) in [
+        hold([
             ("rig", ours.rig, self.rig),
             ("board", ours.board, self.board),
             ("chip", ours.unique_id, self.unique_id),
-        ] {
-            if expected != found {
-                return Err(RecordsError::Other { what, expected, found });
-            }
-        }
-        let expected: Vec<_> = hinges.iter().map(|hinge| (hinge.number, hinge.channel)).collect();
-        let found: Vec<_> = self.hinges.iter().map(|hinge| (hinge.hinge, hinge.channel)).collect();
-        if expected != found {
-            return Err(RecordsError::Hinges { expected, found });
-        }
+        ])?;
+        let expected = hinges.iter().map(|hinge| (hinge.number, hinge.channel));
+        hold_hinges(expected, self.hinges.iter().map(|hinge| (hinge.hinge, hinge.channel)))?;
         for (hinge, measured) in hinges.iter_mut().zip(self.hinges) {
             for (pulse_us, angle_deg, pushes) in measured.looks {
                 if !angle_deg.is_finite() {
